@@ -9,8 +9,8 @@ use syn::{Attribute, Item, Macro, UseTree};
 
 /// Sources that may do what no other may, with what they do it for.
 const DOORS: [(&str, &str); 7] = [
-    ("crates/io/src/input/door.rs", "files and folders that are read"),
-    ("crates/io/src/input/stream.rs", "streams, the standard input among them"),
+    ("crates/table/src/door.rs", "files and folders that are read"),
+    ("crates/table/src/stream.rs", "streams, the standard input among them"),
     (
         "crates/io/src/output/",
         "files, folders and words that are written; the script that `launch --submit` runs",
@@ -230,7 +230,7 @@ const ESCAPES: [(&str, &[&str]); 7] = [
     ("SVGBackend", &["crates/report/src/plots/canvas.rs"]),
     ("&lt;", &MARKUP),
     ("&amp;", &MARKUP),
-    ("'\\\\''", &["crates/io/src/output/shell.rs"]),
+    ("'\\\\''", &["crates/table/src/shell.rs"]),
     ("\\u{1b}", &[]),
 ];
 

@@ -9,7 +9,7 @@ use syn::visit::{self, Visit};
 use syn::{Attribute, Item, ItemMod, ItemUse, Macro, UseTree, VisRestricted};
 
 /// Crates from the ground up: each may use those before it.
-const FLOORS: [&str; 12] = [
+const FLOORS: [&str; 13] = [
     "switchback-model",
     "switchback-table",
     "switchback-noise",
@@ -29,7 +29,7 @@ const FLOORS: [&str; 12] = [
 const MOST_LINES: usize = 14_000;
 
 /// Crates above that, which only may shrink.
-const LARGE: [(&str, usize); 2] = [("diagnose", 18_800), ("identify", 15_200)];
+const LARGE: [(&str, usize); 2] = [("diagnose", 18_800), ("identify", 15_000)];
 
 fn root() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../..").canonicalize().expect("the workspace")
@@ -293,8 +293,8 @@ fn circles(arrows: &BTreeMap<Vec<String>, BTreeSet<Vec<String>>>) -> Vec<String>
 fn no_files_of_a_crate_use_each_other_in_circles() {
     let mut found = BTreeMap::new();
     for name in [
-        "model", "table", "noise", "identify", "diagnose", "fmu", "io", "study", "lab", "report", "cli",
-        "python",
+        "model", "table", "noise", "identify", "diagnose", "fmu", "io", "host", "study", "lab", "report",
+        "cli", "python",
     ] {
         let modules = Modules::of(&root().join("crates").join(name).join("src"));
         assert!(!modules.0.is_empty(), "{name}");

@@ -3,7 +3,7 @@
 use crate::description::Description;
 use crate::map::Ports;
 use crate::messages::{Job, Line};
-use crate::simulation::Teller;
+use crate::reporter::Reporter;
 use libloading::{Library, Symbol};
 use std::error::Error;
 use std::ffi::{CStr, CString, c_char, c_int, c_void};
@@ -18,7 +18,7 @@ pub(crate) fn run(
     description: &Description,
     ports: &Ports,
     (job, folder): (&Job, &Path),
-    teller: &mut Teller,
+    reporter: &mut Reporter,
 ) -> Result<(), String> {
     // SAFETY: a library runs code of its own when it is loaded: that is why this process is none but its own.
     let library = unsafe { Library::new(&description.library) }.map_err(|error| {
@@ -31,14 +31,14 @@ pub(crate) fn run(
     let words = |text: String| CString::new(text).map_err(|_| "its description has a zero byte".to_owned());
     let about = (words(description.guid.clone())?, words(address(&resources))?);
     for (record, v) in job.inputs.iter().enumerate() {
-        teller.stands(record, 0).map_err(fails)?;
-        let stands = |sample| teller.stands(record, sample).map_err(fails);
+        reporter.reached(record, 0).map_err(fails)?;
+        let stands = |sample| reporter.reached(record, sample).map_err(fails);
         let y = unit.over((&about.0, &about.1), (ports, job.sample_time), v, stands)?;
         if let Some(sample) = y.iter().position(|y| !y.is_finite()) {
-            teller.tell(&Line::At(record, sample)).map_err(fails)?;
+            reporter.report(&Line::At(record, sample)).map_err(fails)?;
             return Err(format!("its output is {}, which is no finite number", y[sample]));
         }
-        teller.tell(&Line::Ran(record, y)).map_err(fails)?;
+        reporter.report(&Line::Ran(record, y)).map_err(fails)?;
     }
     Ok(())
 }

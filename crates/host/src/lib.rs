@@ -20,6 +20,7 @@ mod map;
 mod messages;
 mod predict;
 mod process;
+mod reporter;
 mod simulation;
 mod system;
 

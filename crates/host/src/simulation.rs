@@ -6,13 +6,10 @@ use crate::error::FmuError;
 use crate::functions::run;
 use crate::map::Ports;
 use crate::messages::{Job, Line};
+use crate::reporter::Reporter;
 use crate::system;
-use std::io::{self, BufRead, Write};
+use std::io::{self, BufRead};
 use std::path::Path;
-use std::time::{Duration, Instant};
-
-/// From one sign of life to the next.
-const HEARTBEAT: Duration = Duration::from_millis(200);
 
 /// Unpacks an FMU into the working folder and runs it over a job, the first line of standard input. What comes out goes to standard output; what
 /// the FMU prints, to standard error.
@@ -24,15 +21,15 @@ pub fn simulate(fmu: &Path) -> io::Result<()> {
     let mut job = String::new();
     io::stdin().lock().read_line(&mut job)?;
     let job: Job = serde_json::from_str(&job)?;
-    let mut teller = Teller { lines: system::take_standard_output()?, last: None };
+    let mut reporter = Reporter::on_standard_output()?;
     let unpacked = Path::new("fmu");
-    match opened(fmu, unpacked, &job, &mut teller) {
+    match opened(fmu, unpacked, &job, &mut reporter) {
         Ok((description, ports)) => {
             system::limit();
-            let ended = run(&description, &ports, (&job, unpacked), &mut teller);
-            ended.or_else(|why| teller.tell(&Line::Failed(why)))
+            let ended = run(&description, &ports, (&job, unpacked), &mut reporter);
+            ended.or_else(|why| reporter.report(&Line::Failed(why)))
         }
-        Err(error) => teller.tell(&Line::Refused(error.what, error.remedy)),
+        Err(error) => reporter.report(&Line::Refused(error.what, error.remedy)),
     }
 }
 
@@ -40,39 +37,11 @@ fn opened(
     fmu: &Path,
     folder: &Path,
     job: &Job,
-    teller: &mut Teller,
+    reporter: &mut Reporter,
 ) -> Result<(Description, Ports), FmuError> {
-    unpack(fmu, folder, |bytes| drop(teller.tell_sometimes(&Line::Unpacked(bytes))))?;
+    unpack(fmu, folder, |bytes| drop(reporter.report_sometimes(&Line::Unpacked(bytes))))?;
     let description = Description::read(fmu, folder)?;
     let ports = job.map.find(fmu, &description)?;
     ports.check_units(fmu, &job.labels)?;
     Ok((description, ports))
-}
-
-/// Writes lines.
-pub(crate) struct Teller {
-    #[cfg(unix)]
-    lines: std::fs::File,
-    #[cfg(not(unix))]
-    lines: io::Stdout,
-    last: Option<Instant>,
-}
-
-impl Teller {
-    pub(crate) fn tell(&mut self, line: &Line) -> io::Result<()> {
-        self.last = Some(Instant::now());
-        let text = serde_json::to_string(line).expect("numbers and words are JSON");
-        self.lines.write_all((text + "\n").as_bytes())?;
-        self.lines.flush()
-    }
-
-    /// The same, unless another line was written a moment ago.
-    fn tell_sometimes(&mut self, line: &Line) -> io::Result<()> {
-        if self.last.is_some_and(|last| last.elapsed() < HEARTBEAT) { Ok(()) } else { self.tell(line) }
-    }
-
-    pub(crate) fn stands(&mut self, record: usize, sample: usize) -> io::Result<()> {
-        let line = Line::At(record, sample);
-        if sample == 0 { self.tell(&line) } else { self.tell_sometimes(&line) }
-    }
 }

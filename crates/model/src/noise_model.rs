@@ -63,11 +63,11 @@ pub fn whitened(mut x: Vec<f64>, whitening: &[f64]) -> Vec<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::linear::{autocovariance, filter, is_stable};
     use nalgebra::{DMatrix, DVector};
     use rand::SeedableRng;
     use rand_chacha::ChaCha8Rng;
     use rand_distr::{Distribution, StandardNormal};
-    use crate::linear::{autocovariance, filter, is_stable};
 
     fn white(seed: u64, samples: usize) -> Vec<f64> {
         let mut rng = ChaCha8Rng::seed_from_u64(seed);

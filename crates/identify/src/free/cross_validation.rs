@@ -6,7 +6,7 @@ use super::problem::{Parameters, Segment, Structure};
 use super::rank_one::solve_symmetric;
 use super::runs::SMOOTHNESS;
 use super::simulation_error::{
-    Effort, Linearised, Refinement, cost, linearise_whitened, output_energy, penalty,
+    Effort, Linearised, Refinement, cost, fix_gauge, linearise_whitened, output_energy, penalty,
 };
 use nalgebra::{DMatrix, DVector};
 
@@ -104,10 +104,7 @@ impl Total {
         curves += penalty;
         let mut pull = gradient.rows_mut(first, theta.f.len());
         pull -= penalty * DVector::from_column_slice(&theta.f);
-        // The scale that b and f share is free: no error changes along (b, −f), and the penalty alone must not move it.
-        let gauge = gauge(theta);
-        let weight = information.diagonal().max() / gauge.norm_squared().max(f64::MIN_POSITIVE);
-        information.ger(weight, &gauge, &gauge, 1.0);
+        fix_gauge(&mut information, theta);
         Self { information, gradient }
     }
 
@@ -117,11 +114,4 @@ impl Total {
         let step = solve_symmetric(&information, &(&self.gradient - &block.gradient), 1e-12)?;
         Some(theta.moved(step.as_slice()))
     }
-}
-
-/// The direction in which the scale of `b` grows and that of `f` shrinks.
-fn gauge(theta: &Parameters) -> DVector<f64> {
-    let zero = |x: &[f64]| vec![0.0; x.len()];
-    let shrunk = theta.f.iter().map(|f| -f).collect();
-    DVector::from_vec([zero(&theta.a), theta.b.clone(), shrunk, vec![0.0]].concat())
 }

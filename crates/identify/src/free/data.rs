@@ -109,7 +109,8 @@ impl Featured<'_> {
     /// Blocks of time of about equal length, none across records: `blocks` in all, or a few more. Of long records each block is only the first part, so
     /// that all of them have [`SEARCH_SAMPLES`] or a few more.
     ///
-    /// A block's first outputs show its initial state, so that no block sees another's outputs.
+    /// A free run starts half a block before what counts, from outputs that were measured there: where blocks are short, the noise of these would outweigh the
+    /// error of the model, and a larger order would win because it averages over more of them.
     pub(super) fn search_blocks(&self, structure: Structure, blocks: usize) -> Vec<Segment<'_>> {
         let total: usize = self.records.iter().map(|(r, ..)| r.len()).sum();
         let length = total.div_ceil(blocks).max(1);
@@ -120,8 +121,9 @@ impl Featured<'_> {
             for j in 0..count {
                 let (from, to) = (record.len() * j / count, record.len() * (j + 1) / count);
                 let to = from + (share * (to - from) as f64).ceil() as usize;
-                let block = Segment::usable(structure, record.y(), cells, from.max(*known)..to);
-                out.extend(block.map(Segment::with_fitted_start));
+                let run_in = ((0.5 * share * length as f64) as usize).min(from);
+                let block = Segment::usable(structure, record.y(), cells, (from - run_in).max(*known)..to);
+                out.extend(block.and_then(|block| block.counted_from(from)));
             }
         }
         out

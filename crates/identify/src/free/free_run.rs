@@ -6,7 +6,7 @@ use super::errors::{Errors, figures};
 use super::fit::{FitKind, Fitted, quick_equation_error_fit, simulated};
 use super::nested::NestedRegressions;
 use super::normalise::{Covariance, normalise, quantities};
-use super::problem::{Segment, Start};
+use super::problem::Segment;
 use super::regression::Regression;
 use super::runs::{Fold, Folded, Runs};
 use super::undersmoothing::{GridFit, undersmoothed};
@@ -52,7 +52,7 @@ impl<'a> Explained<'a> {
             Some((fold, folded)) => {
                 let (y, weights, to) = (&folded.y[..], Some(&folded.weights[..]), from + 3 * fold.period);
                 Runs {
-                    segments: vec![Segment { y, cells, from, to, weights, start: Start::Measured }],
+                    segments: vec![Segment { y, cells, from, to, weights, counted_from: from }],
                     fold: Some(*fold),
                 }
             }
@@ -62,7 +62,7 @@ impl<'a> Explained<'a> {
                 from,
                 to: self.to,
                 weights: None,
-                start: Start::Measured,
+                counted_from: from,
             }]),
         }
     }

@@ -33,7 +33,6 @@ mod free_run;
 mod grid_bias;
 mod halving;
 mod identify;
-mod initial_state;
 mod input_noise;
 mod jumps;
 mod limit;

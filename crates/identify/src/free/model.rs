@@ -2,7 +2,7 @@
 
 use super::basis::{Basis, Cell};
 use super::cells::Cells;
-use super::problem::{Parameters, Segment, Start, Structure};
+use super::problem::{Parameters, Segment, Structure};
 use super::simulation_error::free_run;
 use switchback_model::hysteresis::Branch;
 use switchback_model::record::Record;
@@ -168,14 +168,9 @@ impl Model {
         let given = y_before.len().min(v.len());
         let mut y = [vec![rest; memory], y_before[..given].to_vec()].concat();
         y.resize(memory + v.len(), 0.0);
-        let segment = Segment {
-            y: &y,
-            cells: &cells,
-            from: memory + given,
-            to: memory + v.len(),
-            weights: None,
-            start: Start::Measured,
-        };
+        let from = memory + given;
+        let segment =
+            Segment { y: &y, cells: &cells, from, to: memory + v.len(), weights: None, counted_from: from };
         let run = free_run(self.structure, &self.parameters, &segment);
         y[memory..memory + given].iter().copied().chain(run).collect()
     }

@@ -86,17 +86,8 @@ pub(super) struct Segment<'a> {
     pub(super) to: usize,
     /// How many samples of the record each one stands for, over the same indices as `y`; one where there are none.
     pub(super) weights: Option<&'a [f64]>,
-    /// Where a free run begins.
-    pub(super) start: Start,
-}
-
-/// The outputs before a stretch, from which its free run starts.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Start {
-    /// As they were measured.
-    Measured,
-    /// Fitted with the stretch, in which they count as samples.
-    Fitted,
+    /// The first sample whose error counts; those before it let the run forget the noise of the outputs from which it starts.
+    pub(super) counted_from: usize,
 }
 
 impl<'a> Segment<'a> {
@@ -109,17 +100,18 @@ impl<'a> Segment<'a> {
     ) -> Option<Self> {
         let from = range.start + structure.memory();
         let to = range.end.min(y.len() - structure.ahead().min(y.len()));
-        (from < to).then_some(Self { y, cells, from, to, weights: None, start: Start::Measured })
+        (from < to).then_some(Self { y, cells, from, to, weights: None, counted_from: from })
     }
 
-    /// The same stretch, its initial outputs fitted.
-    pub(super) fn with_fitted_start(self) -> Self {
-        Self { start: Start::Fitted, ..self }
+    /// The same stretch, errors before a sample not counted; none where that leaves nothing.
+    pub(super) fn counted_from(self, sample: usize) -> Option<Self> {
+        let counted_from = self.from.max(sample);
+        (counted_from < self.to).then_some(Self { counted_from, ..self })
     }
 
-    /// Outputs before it that are fitted.
-    pub(super) fn fitted_outputs(&self, structure: Structure) -> usize {
-        if self.start == Start::Fitted { structure.order } else { 0 }
+    /// Samples whose errors count.
+    pub(super) fn counted(&self) -> usize {
+        self.to - self.counted_from
     }
 
     pub(super) fn len(&self) -> usize {
@@ -131,9 +123,9 @@ impl<'a> Segment<'a> {
         self.weights.map_or(1.0, |weights| weights[t])
     }
 
-    /// Energy of the outputs to be explained about their mean.
+    /// Energy of the outputs that count about their mean.
     pub(super) fn energy(&self) -> f64 {
-        let y = &self.y[self.from..self.to];
+        let y = &self.y[self.counted_from..self.to];
         let mean = y.iter().sum::<f64>() / y.len() as f64;
         y.iter().map(|y| (y - mean) * (y - mean)).sum()
     }
@@ -162,7 +154,7 @@ impl Basis {
 
     /// Refuses fewer than two samples a parameter.
     pub(super) fn check_length(&self, structure: Structure, segments: &[Segment]) -> Result<(), FreeError> {
-        let samples = segments.iter().map(Segment::len).sum();
+        let samples = segments.iter().map(Segment::counted).sum();
         let parameters = structure.order + structure.numerator() + self.features();
         if samples < 2 * parameters { Err(FreeError::TooShort { samples, parameters }) } else { Ok(()) }
     }

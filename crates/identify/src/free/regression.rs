@@ -6,7 +6,7 @@ use super::error::FreeError;
 use super::errors::equation_error_estimate;
 use super::fit::quick_equation_error_fit;
 use super::one_shot::Grid;
-use super::problem::{Segment, Start};
+use super::problem::Segment;
 use crate::Estimate;
 use nalgebra::DMatrix;
 use switchback_model::reversal::Branches;
@@ -44,7 +44,7 @@ impl Regression {
         if let Some(first) = checkpoints.first() {
             let (from, cells) = (regression.start, &regression.cells);
             let segment =
-                [Segment { y: v, cells, from, to: from + first, weights: None, start: Start::Measured }];
+                [Segment { y: v, cells, from, to: from + first, weights: None, counted_from: from }];
             regression.grid.basis.check_visits(&segment)?;
             regression.grid.basis.check_length(regression.grid.structure, &segment)?;
         }

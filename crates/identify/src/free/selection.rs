@@ -201,7 +201,7 @@ impl Search<'_> {
         let Assessed { fitted, parameters, .. } = assessed;
         let featured = self.data.featured(fitted.basis.clone());
         let blocks = featured.search_blocks(fitted.structure, FOLDS);
-        let samples: usize = blocks.iter().map(Segment::len).sum();
+        let samples: usize = blocks.iter().map(Segment::counted).sum();
         let curves: Vec<usize> = featured.basis.sizes().collect();
         let refinement = Refinement {
             effort: Effort::SEARCH,
@@ -263,7 +263,7 @@ pub(super) fn with_best_rule<'a>(data: Data<'a>, settings: &Settings) -> Data<'a
         let ladder = Ladder::new(data, settings.input_map, knots);
         let segments = ladder.top().search_blocks(structure, FOLDS);
         let fitted = ladder.climb_from_smaller(structure)?;
-        let samples: usize = segments.iter().map(Segment::len).sum();
+        let samples: usize = segments.iter().map(Segment::counted).sum();
         Some(cost(structure, &fitted.theta, &segments) / samples as f64)
     };
     let tried = rules.into_iter().map(|rule| data.with_rule(rule)).filter_map(|d| Some((error(&d)?, d)));

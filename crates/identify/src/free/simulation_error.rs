@@ -1,7 +1,6 @@
 //! Refinement: the parameters that minimise the error of a free run.
 
-use super::initial_state::{InitialState, own_information, without_last};
-use super::problem::{Parameters, Segment, Start, Structure};
+use super::problem::{Parameters, Segment, Structure};
 use super::rank_one::solve_symmetric;
 use nalgebra::{DMatrix, DMatrixView, DVector};
 use switchback_model::linear::is_stable;
@@ -13,72 +12,35 @@ pub(super) struct Effort {
     pub(super) iterations: usize,
     /// Relative decrease of the cost below which a step counts as the last.
     pub(super) tolerance: f64,
+    /// Gauss–Newton steps taken beyond that: the sum of squares no longer shows what they gain, but the parameters do.
+    pub(super) polish: usize,
 }
 
 impl Effort {
     /// Enough to show which start is best.
-    pub(super) const TRIAL: Self = Self { iterations: 4, tolerance: 1e-3 };
+    pub(super) const TRIAL: Self = Self { iterations: 4, tolerance: 1e-3, polish: 0 };
     /// Enough to rank structures.
-    pub(super) const SEARCH: Self = Self { iterations: 12, tolerance: 1e-3 };
+    pub(super) const SEARCH: Self = Self { iterations: 12, tolerance: 1e-3, polish: 0 };
     /// For the fit that is reported. Most end by the tolerance, after a few steps; along a coefficient that the records hardly show, later steps
     /// than these move the fit by less than a hundredth of its standard error.
-    pub(super) const FINAL: Self = Self { iterations: 40, tolerance: 1e-12 };
+    pub(super) const FINAL: Self = Self { iterations: 40, tolerance: 1e-12, polish: 2 };
     /// For one of many fits to simulated noise, from a start nearby: what is left is, of 10⁵ samples, a tenth of a standard error.
-    pub(super) const REPEATED: Self = Self { iterations: 12, tolerance: 1e-7 };
+    pub(super) const REPEATED: Self = Self { iterations: 12, tolerance: 1e-7, polish: 0 };
 }
 
-/// The free run over a stretch from the outputs before it.
+/// The free run over a stretch: measured outputs before it, simulated ones from there on.
 pub(super) fn free_run(structure: Structure, theta: &Parameters, segment: &Segment) -> Vec<f64> {
-    Simulated::of(structure, theta, segment, &[]).run
-}
-
-/// A free run and the errors that it leaves.
-struct Simulated {
-    /// The outputs before the stretch, oldest first, from which the run starts.
-    before: Vec<f64>,
-    /// One output a sample of the stretch.
-    run: Vec<f64>,
-    /// Errors `D(y − ŷ)` from sample `first` on: that of the stretch, or that of its fitted start.
-    errors: Vec<f64>,
-    first: usize,
-}
-
-impl Simulated {
-    fn of(structure: Structure, theta: &Parameters, segment: &Segment, whitening: &[f64]) -> Self {
-        let order = theta.a.len();
-        let driven = driven(structure, theta, segment);
-        let mut before = segment.y[segment.from - order..segment.from].to_vec();
-        let mut run = run_from(&theta.a, &before, &driven);
-        let errors = |run: &[f64]| -> Vec<f64> {
-            run.iter().zip(&segment.y[segment.from..segment.to]).map(|(p, y)| y - p).collect()
-        };
-        match segment.start {
-            Start::Measured => {
-                let errors = whitened(errors(&run), whitening);
-                Self { before, run, errors, first: segment.from }
-            }
-            Start::Fitted => {
-                let state = InitialState::of(&theta.a, errors(&run), whitening);
-                before.iter_mut().zip(&state.deviation).for_each(|(y, d)| *y += d);
-                run.iter_mut().zip(&state.response).for_each(|(y, d)| *y += d);
-                Self { before, run, errors: state.errors, first: segment.from - order }
-            }
-        }
-    }
-}
-
-/// `1/A` of a signal, after the outputs before it.
-fn run_from(a: &[f64], before: &[f64], driven: &[f64]) -> Vec<f64> {
-    let mut y = Vec::with_capacity(before.len() + driven.len());
-    y.extend_from_slice(before);
-    y.extend_from_slice(driven);
-    for t in before.len()..y.len() {
+    let order = theta.a.len();
+    let mut y = Vec::with_capacity(order + segment.len());
+    y.extend_from_slice(&segment.y[segment.from - order..segment.from]);
+    y.extend(driven(structure, theta, segment));
+    for t in order..y.len() {
         let (past, now) = y.split_at_mut(t);
-        for (a, past) in a.iter().zip(past.iter().rev()) {
+        for (a, past) in theta.a.iter().zip(past.iter().rev()) {
             now[0] -= a * past;
         }
     }
-    y.split_off(before.len())
+    y.split_off(order)
 }
 
 /// `B(q⁻¹)u + c` over a stretch.
@@ -116,8 +78,9 @@ pub(super) fn whitened_cost(
         return f64::INFINITY;
     }
     let square = |s: &Segment| -> f64 {
-        let simulated = Simulated::of(structure, theta, s, whitening);
-        simulated.errors.iter().zip(simulated.first..).map(|(e, t)| s.weight(t) * (e * e)).sum()
+        let errors = whitened(free_run_errors(structure, theta, s), whitening);
+        let counted = errors.iter().zip(s.from..).skip(s.counted_from - s.from);
+        counted.map(|(e, t)| s.weight(t) * (e * e)).sum()
     };
     segments.iter().map(square).sum()
 }
@@ -156,32 +119,30 @@ pub(super) fn linearise_whitened(
         batches: Vec::new(),
     };
     for segment in segments {
-        let free = segment.fitted_outputs(structure);
-        let mut own = DMatrix::zeros(p + free, p + free);
-        let simulated = Simulated::of(structure, theta, segment, whitening);
-        if free > 0 {
-            own.view_mut((p, p), (free, free)).copy_from(&own_information(free, whitening));
-            sums.cost += simulated.errors[..free].iter().map(|e| e * e).sum::<f64>();
-        }
-        each_batch_of(&simulated, (structure, theta), segment, whitening, |t, batch, error| {
+        each_batch(structure, theta, segment, whitening, |t, batch, error| {
+            let skipped = segment.counted_from.saturating_sub(t);
+            if skipped >= error.len() {
+                return;
+            }
+            let counted = error.len() - skipped;
+            let (t, batch, error) =
+                (t + skipped, batch.columns(skipped, counted), error.rows(skipped, counted));
             let gradient = if segment.weights.is_some() {
                 let mut heavy = batch.clone_owned();
                 for (s, mut column) in heavy.column_iter_mut().enumerate() {
                     column *= segment.weight(t + s);
                 }
-                own.gemm(1.0, &heavy, &batch.transpose(), 1.0);
+                sums.information.gemm(1.0, &heavy, &batch.transpose(), 1.0);
                 sums.cost += (0..error.len()).map(|s| segment.weight(t + s) * error[s].powi(2)).sum::<f64>();
                 heavy * error
             } else {
-                own.gemm(1.0, &batch, &batch.transpose(), 1.0);
+                sums.information.gemm(1.0, &batch, &batch.transpose(), 1.0);
                 sums.cost += error.norm_squared();
                 batch * error
             };
-            let gradient = gradient.rows(0, p).clone_owned();
             sums.gradient += &gradient;
             sums.batches.push(gradient);
         });
-        sums.information += without_last(own, free);
     }
     sums
 }
@@ -193,44 +154,28 @@ pub(super) fn linearise_whitened(
 /// A(q⁻¹) ∂ŷ/∂aᵢ = −ŷ(t−i),   A ∂ŷ/∂bᵢ = u(t−d−i),   A ∂ŷ/∂f_k = B φ_k(t),   A ∂ŷ/∂c = 1
 /// ```
 ///
-/// from rest, since the outputs before the stretch are given; where they are fitted, rows for them follow the parameters'.
+/// from rest, since the outputs before the stretch are given.
 pub(super) fn each_batch(
     structure: Structure,
     theta: &Parameters,
     segment: &Segment,
     whitening: &[f64],
-    visit: impl FnMut(usize, DMatrixView<'_, f64>, &DVector<f64>),
-) {
-    let simulated = Simulated::of(structure, theta, segment, whitening);
-    each_batch_of(&simulated, (structure, theta), segment, whitening, visit);
-}
-
-/// [`each_batch`] along a free run.
-fn each_batch_of(
-    Simulated { before, run, errors, first }: &Simulated,
-    (structure, theta): (Structure, &Parameters),
-    segment: &Segment,
-    whitening: &[f64],
     mut visit: impl FnMut(usize, DMatrixView<'_, f64>, &DVector<f64>),
 ) {
     let (n, nb, m) = (theta.a.len(), theta.b.len(), theta.f.len());
-    let c = n + nb + m;
-    let fitted = segment.fitted_outputs(structure);
-    let p = c + 1 + fitted;
+    let p = n + nb + m + 1;
     // Samples that later ones answer to.
     let past_kept = n.max(whitening.len());
-    let before =
-        |t: usize| t.checked_sub(segment.from).map_or_else(|| before[t + n - segment.from], |t| run[t]);
+    let run = free_run(structure, theta, segment);
+    let before = |t: usize| if t < segment.from { segment.y[t] } else { run[t - segment.from] };
+    let errors = whitened(free_run_errors(structure, theta, segment), whitening);
     // Column t of the batch is ∂ŷ(t)/∂θ; the first columns are carried over from the batch before.
     let mut rows = DMatrix::<f64>::zeros(p, past_kept + BATCH);
-    for j in 0..fitted {
-        rows[(c + 1 + j, past_kept - n + j)] = 1.0;
-    }
     let mut filtered = DMatrix::<f64>::zeros(p, if whitening.is_empty() { 0 } else { BATCH });
     let mut t = segment.from;
     while t < segment.to {
         let count = BATCH.min(segment.to - t);
-        let error = DVector::from_column_slice(&errors[t - first..t - first + count]);
+        let error = DVector::from_column_slice(&errors[t - segment.from..t - segment.from + count]);
         for s in 0..count {
             let now = t + s;
             let (past, present) = rows.as_mut_slice().split_at_mut(p * (past_kept + s));
@@ -250,7 +195,7 @@ fn each_batch_of(
                     present[n + nb + k] += b * x;
                 }
             }
-            present[c] += 1.0;
+            present[p - 1] += 1.0;
             if !whitening.is_empty() {
                 let out = &mut filtered.as_mut_slice()[p * s..p * (s + 1)];
                 out.copy_from_slice(present);
@@ -301,18 +246,26 @@ impl Refinement<'_> {
             cost + self.constant + f.dot(&(&penalty * &f))
         };
         let mut now = penalised(&theta);
-        let mut damping = 1e-3;
-        for _ in 0..self.effort.iterations {
-            let mut model = linearise_whitened(structure, &theta, segments, self.whitening);
+        let normal = |theta: &Parameters| {
+            let mut model = linearise_whitened(structure, theta, segments, self.whitening);
             let f = DVector::from_column_slice(&theta.f);
             let mut block = model.information.view_mut((offset, offset), penalty.shape());
             block += &penalty;
             let mut pull = model.gradient.rows_mut(offset, f.len());
             pull -= &penalty * f;
+            fix_gauge(&mut model.information, theta);
+            model
+        };
+        let moved = |theta: &Parameters, model: &Linearised, damping: f64| {
+            let step = solve_symmetric(&model.information, &model.gradient, damping + 1e-13);
+            step.map(|step| theta.moved(step.as_slice()))
+        };
+        let mut damping = 1e-3;
+        for _ in 0..self.effort.iterations {
+            let model = normal(&theta);
             let before = now;
             while damping < 1e12 {
-                let next = solve_symmetric(&model.information, &model.gradient, damping + 1e-13);
-                let next = next.map(|step| theta.moved(step.as_slice()));
+                let next = moved(&theta, &model, damping);
                 let cost = next.as_ref().map_or(f64::INFINITY, &penalised);
                 match next {
                     Some(next) if cost < now => {
@@ -328,8 +281,27 @@ impl Refinement<'_> {
                 break;
             }
         }
+        for _ in 0..self.effort.polish {
+            let next = moved(&theta, &normal(&theta), 0.0);
+            match next.filter(|next| penalised(next) <= now * (1.0 + 1e-9)) {
+                Some(next) => theta = next,
+                None => break,
+            }
+        }
         theta.balanced()
     }
+}
+
+/// Weight of the gauge in the information, relative to its largest entry: above rounding, and below what would damp other directions.
+const GAUGE: f64 = 1e-6;
+
+/// Keeps steps off the scale that `b` and `f` share: no error changes along `(b, −f)`, and rounding alone would choose a step there.
+pub(super) fn fix_gauge(information: &mut DMatrix<f64>, theta: &Parameters) {
+    let zero = |x: &[f64]| vec![0.0; x.len()];
+    let shrunk = theta.f.iter().map(|f| -f).collect();
+    let gauge = DVector::from_vec([zero(&theta.a), theta.b.clone(), shrunk, vec![0.0]].concat());
+    let weight = GAUGE * information.diagonal().max() / gauge.norm_squared().max(f64::MIN_POSITIVE);
+    information.ger(weight, &gauge, &gauge, 1.0);
 }
 
 /// `P` of the penalty `fᵀPf`: squared second differences of every curve.
