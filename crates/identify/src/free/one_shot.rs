@@ -37,8 +37,9 @@ pub struct Grid {
 ///
 /// ```
 /// use switchback_model::Record;
-/// use switchback_identify::free::{Basis, Grid, ReversalRule, Structure, one_shot};
+/// use switchback_identify::free::{Basis, Grid, Structure, one_shot};
 /// use switchback_model::linear::filter;
+/// use switchback_model::reversal::ReversalRule;
 /// // A relay of ±1 that drives y(t) = 0.5 y(t−1) + u(t−1).
 /// let v: Vec<f64> = (0..200).map(|t| f64::from(t * t % 17)).collect();
 /// let mut u = vec![0.0; 200];
