@@ -89,7 +89,7 @@ pub(super) fn select(
         ));
     }
     let search = Search { data, settings, progress };
-    progress.found(2 * knots.len() + structures.len());
+    progress.found(2 * (knots.len() + structures.len()));
     search.run(&structures, &knots)
 }
 
