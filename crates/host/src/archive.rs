@@ -10,7 +10,7 @@ use zip::ZipArchive;
 /// Most bytes that an archive may unpack to.
 const LARGEST: u64 = 4 << 30;
 
-/// Unpacks an FMU into a folder; what would leave the folder, or is a link, is refused. `goes_on` is told how many bytes there are so far.
+/// Unpacks an FMU into a folder; what would leave the folder, or is a link, is refused. `goes_on` receives the number of bytes so far.
 pub(crate) fn unpack(fmu: &Path, folder: &Path, mut goes_on: impl FnMut(u64)) -> Result<(), FmuError> {
     let fail = |what: String| {
         FmuError::new(fmu, what, "give a co-simulation FMU of FMI 2.0, as simulators export it")

@@ -13,7 +13,7 @@ use switchback_fmu::fmi2::{
     SetReal, SetupExperiment, Status,
 };
 
-/// Runs the library of an FMU, unpacked into `folder`, over a job, and tells what comes out.
+/// Runs the library of an FMU, unpacked into `folder`, over a job, and reports what comes out.
 pub(crate) fn run(
     description: &Description,
     ports: &Ports,

@@ -17,7 +17,7 @@ const LOOK: Duration = Duration::from_millis(5);
 const LARGEST_JOB: u64 = 4 << 30;
 
 /// Runs an FMU in a process and a folder of their own: the job is the first line of standard input. When the process ends, when standard input
-/// does (as it does when whoever holds its other end is gone), or when `is_stopped`, every process that the FMU began is ended and the folder
+/// does (as it does when the process at its other end has ended), or when `is_stopped`, every process that the FMU began is ended and the folder
 /// removed. The result is the exit code of the simulation.
 ///
 /// # Errors

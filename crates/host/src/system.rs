@@ -11,7 +11,7 @@ const LARGEST_FILE: u64 = 64 << 20;
 #[cfg(unix)]
 const LARGEST_DATA: u64 = 8 << 30;
 
-/// How long processes that were killed may take to be gone.
+/// How long killed processes may take to end.
 const PATIENCE: Duration = Duration::from_secs(5);
 
 /// A process that signals to this one's group, as from the keyboard, do not reach.

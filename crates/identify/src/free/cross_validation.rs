@@ -4,9 +4,8 @@ use super::data::Featured;
 use super::fit::Fitted;
 use super::problem::{Parameters, Segment, Structure};
 use super::rank_one::solve_symmetric;
-use super::runs::SMOOTHNESS;
 use super::simulation_error::{
-    Effort, Linearised, Refinement, cost, fix_gauge, linearise_whitened, output_energy, penalty,
+    Effort, Linearised, Refinement, SMOOTHNESS, cost, fix_gauge, linearise_whitened, output_energy, penalty,
 };
 use nalgebra::{DMatrix, DVector};
 
@@ -60,13 +59,7 @@ pub(super) fn assess(featured: &Featured, fitted: Fitted, blocks: &[Segment]) ->
     let sums: Vec<Linearised> =
         blocks.iter().map(|block| linearise_whitened(structure, theta, &[*block], &[])).collect();
     let all = Total::of(&sums, theta, &penalty);
-    let refinement = Refinement {
-        effort: Effort::SEARCH,
-        curves: &curves,
-        smoothness: SMOOTHNESS,
-        whitening: &[],
-        constant: 0.0,
-    };
+    let refinement = Refinement::new(Effort::SEARCH, &curves);
     let energy: f64 = blocks.iter().map(Segment::energy).sum();
     let left_out_error = |k: usize| {
         let rest = without(blocks, k);

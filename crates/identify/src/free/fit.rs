@@ -6,7 +6,7 @@ use super::data::{Data, Featured};
 use super::equation_error::Moments;
 use super::problem::{Parameters, Segment, Structure};
 use super::rank_one::{alternate, gauss_newton, nearest_rank_one, over_parameterised, residual_energy};
-use super::runs::{Runs, SMOOTHNESS};
+use super::runs::Runs;
 use super::settings::InputMap;
 use super::simulation_error::{Effort, Refinement, cost};
 use switchback_model::linear::is_stable;
@@ -139,9 +139,7 @@ impl Featured<'_> {
     pub(super) fn lifted(&self, fitted: &Fitted, segments: &[Segment], effort: Effort) -> Option<Fitted> {
         let start = stabilised(fitted.lifted(fitted.structure, &self.basis));
         let curves: Vec<usize> = self.basis.sizes().collect();
-        let refinement =
-            Refinement { effort, curves: &curves, smoothness: SMOOTHNESS, whitening: &[], constant: 0.0 };
-        let theta = refinement.run(fitted.structure, start, segments);
+        let theta = Refinement::new(effort, &curves).run(fitted.structure, start, segments);
         let is_finite = cost(fitted.structure, &theta, segments).is_finite();
         is_finite.then(|| Fitted {
             structure: fitted.structure,
@@ -205,13 +203,7 @@ fn refined(
     effort: Effort,
 ) -> Option<Parameters> {
     let curves: Vec<usize> = featured.basis.sizes().collect();
-    let refinement = |effort| Refinement {
-        effort,
-        curves: &curves,
-        smoothness: SMOOTHNESS,
-        whitening: &[],
-        constant: 0.0,
-    };
+    let refinement = |effort| Refinement::new(effort, &curves);
     let trial = refinement(Effort::TRIAL);
     let lifted = ranked(structure, lifted.into_iter().map(stabilised).collect(), segments);
     let fresh = equation_error_starts(featured, structure, segments);

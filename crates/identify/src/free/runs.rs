@@ -8,9 +8,6 @@ use super::simulation_error::{
 use nalgebra::{DMatrix, DVector};
 use switchback_model::noise_model::{noise_model, whitened};
 
-/// Weight of the smoothness penalty: decides only what the data leave open.
-pub(super) const SMOOTHNESS: f64 = 1e-8;
-
 /// Stretches of records that a free run is to follow.
 ///
 /// Where the input repeats itself, so does the free run once it has settled, and the squared errors of all repetitions are those of their mean, times their
@@ -108,7 +105,7 @@ impl<'a> Runs<'a> {
         } else {
             0.0
         };
-        let refinement = Refinement { effort, curves: &curves, smoothness: SMOOTHNESS, whitening, constant };
+        let refinement = Refinement { whitening, constant, ..Refinement::new(effort, &curves) };
         refinement.run(structure, start, &self.segments)
     }
 

@@ -8,7 +8,7 @@ use super::fit::{FIRST_KNOTS, Fitted, Ladder};
 use super::problem::{Segment, Structure};
 use super::progress::Progress;
 use super::rules::rules;
-use super::runs::{Runs, SMOOTHNESS};
+use super::runs::Runs;
 use super::settings::{InputMap, Settings};
 use super::simulation_error::{Effort, Refinement, cost, whitened_cost};
 use statrs::distribution::{ContinuousCDF, StudentsT};
@@ -189,11 +189,20 @@ impl Search<'_> {
         let sure = sure_gain(assessed.len());
         let mut ordered: Vec<&Assessed> = assessed.iter().filter(|a| a.fit_percent.is_finite()).collect();
         ordered.sort_by_key(|a| a.parameters);
-        ordered.into_iter().reduce(|now, next| {
+        let mut ordered = ordered.into_iter();
+        let mut now = ordered.next()?;
+        let mut bic: Option<f64> = None;
+        for next in ordered {
             let gain = candidate(now, next).behind;
-            let is_better = gain > sure || (gain > 1.0 && self.bic(next, &filter) < self.bic(now, &filter));
-            if is_better { next } else { now }
-        })
+            if gain > sure {
+                (now, bic) = (next, None);
+            } else if gain > 1.0 {
+                let (of_now, of_next) =
+                    (bic.unwrap_or_else(|| self.bic(now, &filter)), self.bic(next, &filter));
+                (now, bic) = if of_next < of_now { (next, Some(of_next)) } else { (now, Some(of_now)) };
+            }
+        }
+        Some(now)
     }
 
     /// BIC of the errors filtered by `D`, at the parameters that make these least.
@@ -203,13 +212,7 @@ impl Search<'_> {
         let blocks = featured.search_blocks(fitted.structure, FOLDS);
         let samples: usize = blocks.iter().map(Segment::counted).sum();
         let curves: Vec<usize> = featured.basis.sizes().collect();
-        let refinement = Refinement {
-            effort: Effort::SEARCH,
-            curves: &curves,
-            smoothness: SMOOTHNESS,
-            whitening: filter,
-            constant: 0.0,
-        };
+        let refinement = Refinement { whitening: filter, ..Refinement::new(Effort::SEARCH, &curves) };
         let theta = refinement.run(fitted.structure, fitted.theta.clone(), &blocks);
         let mean = whitened_cost(fitted.structure, &theta, &blocks, filter) / samples as f64;
         samples as f64 * mean.ln() + *parameters as f64 * (samples as f64).ln()

@@ -217,21 +217,27 @@ pub(super) fn each_batch(
     }
 }
 
-/// When to stop, and how much to prefer smooth curves where the data say nothing.
+/// Weight of the penalty on rough curves, as a fraction of the output's energy: decides only what the data leave open.
+pub(super) const SMOOTHNESS: f64 = 1e-8;
+
+/// When to stop, and how errors are filtered.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Refinement<'a> {
     pub(super) effort: Effort,
     /// Sizes of the curves, whose second differences the penalty sums.
     pub(super) curves: &'a [usize],
-    /// Weight of the penalty, as a fraction of the output's energy.
-    pub(super) smoothness: f64,
     /// Coefficients of `D`, which makes the free-run errors white; none where they are white already.
     pub(super) whitening: &'a [f64],
     /// Squared errors that no parameter changes: the scatter of what weighted samples stand for.
     pub(super) constant: f64,
 }
 
-impl Refinement<'_> {
+impl<'a> Refinement<'a> {
+    /// Of errors as they are, on curves of these sizes.
+    pub(super) fn new(effort: Effort, curves: &'a [usize]) -> Self {
+        Self { effort, curves, whitening: &[], constant: 0.0 }
+    }
+
     /// Levenberg–Marquardt from a start with a stable `A`; steps that would leave the stable region are not taken.
     ///
     /// K. Levenberg 1944; D. Marquardt, SIAM J. Appl. Math. 11 (1963), doi 10.1137/0111030.
@@ -239,7 +245,7 @@ impl Refinement<'_> {
         let mut theta = start.balanced();
         let energy = output_energy(segments);
         let offset = theta.a.len() + theta.b.len();
-        let penalty = penalty(self.curves, theta.f.len()) * (self.smoothness * energy);
+        let penalty = penalty(self.curves, theta.f.len()) * (SMOOTHNESS * energy);
         let penalised = |theta: &Parameters| {
             let f = DVector::from_column_slice(&theta.f);
             let cost = whitened_cost(structure, theta, segments, self.whitening);

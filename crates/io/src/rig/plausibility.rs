@@ -119,7 +119,7 @@ fn alike_strokes(records: &[(&PlannedRecord, &Measured)]) -> Option<String> {
     })
 }
 
-/// Adds the values at which a signal turns after it has gone `far` at least.
+/// Adds the values at which a signal turns after a travel of `far` at least.
 fn turning_points(values: &[f64], far: f64, (tops, bottoms): (&mut Vec<f64>, &mut Vec<f64>)) {
     let Some(first) = values.first() else { return };
     let (mut low, mut high, mut rises) = (*first, *first, None);

@@ -41,7 +41,7 @@ fn improvement(by: &[f64], of: &[f64]) -> Option<f64> {
     Some((alone / both).ln().max(0.0))
 }
 
-/// Samples ahead that an output is predicted, where inputs are compared: its own past must not tell all.
+/// Samples ahead that an output is predicted, where inputs are compared: its own past must not explain all.
 const AHEAD: usize = 5;
 
 /// The squared error of the best linear prediction of an output some samples ahead, its input up to then being known.
