@@ -12,6 +12,7 @@
 //! | [`reversal`] | the branch of every sample, and the strokes between reversals |
 //! | [`noise_model`] | the autoregression of the noise |
 //! | [`stray`] | samples that no measurement can be |
+//! | [`system`] | a machine with terms for effects: simulated, differentiated, compared |
 //! | [`step`] | a causal model as a small program, run here or printed as C |
 //!
 //! The crate is pure: no files, clocks, threads or ambient randomness.
@@ -24,5 +25,6 @@ pub mod reversal;
 pub mod rig;
 pub mod step;
 pub mod stray;
+pub mod system;
 
 pub use record::Record;

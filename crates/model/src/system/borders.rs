@@ -1,0 +1,110 @@
+//! Both borders as tables, piecewise linear between their knots.
+
+use crate::hysteresis::Branch;
+
+/// The two borders of a hysteresis, in output units over input units; beyond its ends a border keeps its end value.
+///
+/// ```text
+/// mean(v) = ½(C_a(v) + C_d(v)),   half(v) = ½(C_a(v) − C_d(v)),   u = mean + z·half with z = ±1 on the borders
+/// ```
+#[derive(Debug, Clone, PartialEq)]
+pub struct Borders {
+    /// Descending, then ascending.
+    curves: [Table; 2],
+}
+
+#[derive(Debug, Clone, PartialEq)]
+struct Table {
+    knots: Vec<f64>,
+    values: Vec<f64>,
+}
+
+impl Table {
+    fn at(&self, v: f64) -> f64 {
+        let Self { knots, values } = self;
+        let left = knots.partition_point(|&k| k <= v).clamp(1, knots.len() - 1) - 1;
+        let share = ((v - knots[left]) / (knots[left + 1] - knots[left])).clamp(0.0, 1.0);
+        values[left] + share * (values[left + 1] - values[left])
+    }
+}
+
+impl Borders {
+    /// Joins two tables of `(knot, value)`; none unless each has two knots at least, which rise.
+    pub fn new(descending: &[(f64, f64)], ascending: &[(f64, f64)]) -> Option<Self> {
+        let table = |points: &[(f64, f64)]| {
+            let rises = points.len() >= 2 && points.windows(2).all(|pair| pair[0].0 < pair[1].0);
+            let (knots, values) = points.iter().copied().unzip();
+            rises.then_some(Table { knots, values })
+        };
+        Some(Self { curves: [table(descending)?, table(ascending)?] })
+    }
+
+    fn table(&self, branch: Branch) -> &Table {
+        &self.curves[usize::from(branch == Branch::Ascending)]
+    }
+
+    /// `(knot, value)` of one border.
+    pub fn points(&self, branch: Branch) -> impl Iterator<Item = (f64, f64)> + '_ {
+        let table = self.table(branch);
+        table.knots.iter().copied().zip(table.values.iter().copied())
+    }
+
+    /// `(mean, half)` at a position.
+    pub fn at(&self, v: f64) -> (f64, f64) {
+        let [descending, ascending] = [self.curves[0].at(v), self.curves[1].at(v)];
+        (0.5 * (ascending + descending), 0.5 * (ascending - descending))
+    }
+
+    /// Number of knots of both.
+    pub fn count(&self) -> usize {
+        self.curves.iter().map(|c| c.knots.len()).sum()
+    }
+
+    /// The value at a knot, numbered through from the descending border's first.
+    pub fn value_mut(&mut self, knot: usize) -> &mut f64 {
+        let first = self.curves[0].values.len();
+        match knot.checked_sub(first) {
+            None => &mut self.curves[0].values[knot],
+            Some(knot) => &mut self.curves[1].values[knot],
+        }
+    }
+
+    /// The same curves with knots no farther apart than this.
+    #[must_use]
+    pub fn refined(&self, widest: f64) -> Self {
+        let refine = |table: &Table| {
+            let mut knots = vec![table.knots[0]];
+            for pair in table.knots.windows(2) {
+                let pieces = ((pair[1] - pair[0]) / widest * (1.0 - 1e-9)).ceil().max(1.0) as usize;
+                knots.extend((1..=pieces).map(|k| pair[0] + (pair[1] - pair[0]) * k as f64 / pieces as f64));
+            }
+            Table { values: knots.iter().map(|&v| table.at(v)).collect(), knots }
+        };
+        Self { curves: [refine(&self.curves[0]), refine(&self.curves[1])] }
+    }
+
+    /// The same on the knots of both, with mean and half width changed as functions of the position.
+    #[must_use]
+    pub fn map(&self, change: impl Fn(f64, f64, f64) -> (f64, f64)) -> Self {
+        let mut knots: Vec<f64> = self.curves.iter().flat_map(|c| c.knots.iter().copied()).collect();
+        knots.sort_by(f64::total_cmp);
+        knots.dedup();
+        let changed = |v: f64| {
+            let (mean, half) = self.at(v);
+            change(v, mean, half)
+        };
+        let table = |side: f64| Table {
+            values: knots.iter().map(|&v| changed(v)).map(|(mean, half)| mean + side * half).collect(),
+            knots: knots.clone(),
+        };
+        Self { curves: [table(-1.0), table(1.0)] }
+    }
+
+    /// Ends of the positions that both tables cover.
+    pub fn range(&self) -> (f64, f64) {
+        let first = |c: &Table| c.knots[0];
+        let last = |c: &Table| c.knots[c.knots.len() - 1];
+        let [d, a] = &self.curves;
+        (first(d).max(first(a)), last(d).min(last(a)))
+    }
+}

@@ -1,0 +1,79 @@
+//! The system itself.
+
+use super::borders::Borders;
+use super::law::Term;
+use super::linear_part::LinearPart;
+use super::path::Path;
+use super::scale::Scale;
+use super::signals::Span;
+use crate::reversal::ReversalRule;
+
+/// The reading of an output: `y = gain·x + zero`.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Sensor {
+    /// Its gain.
+    pub gain: f64,
+    /// Its zero, output units.
+    pub zero: f64,
+}
+
+impl Sensor {
+    /// The reading that changes nothing.
+    pub const EXACT: Self = Self { gain: 1.0, zero: 0.0 };
+}
+
+/// A machine: borders in output units, a linear part of unit gain, a reading, and terms for effects beside these.
+#[derive(Debug, Clone, PartialEq)]
+pub struct System {
+    /// The borders.
+    pub borders: Borders,
+    /// The linear part.
+    pub linear: LinearPart,
+    /// The reading.
+    pub sensor: Sensor,
+    /// Effects, in the order in which they act at each place.
+    pub terms: Vec<Term>,
+    /// What counts as a reversal.
+    pub rule: ReversalRule,
+}
+
+impl System {
+    /// Whether it is stable and its terms are effects of their own.
+    pub fn is_sound(&self, scale: &Scale) -> bool {
+        self.linear.is_stable() && self.terms.iter().all(|t| t.law.is_sound(&t.values, scale))
+    }
+
+    /// The output for an input, at rest at its first value before; one value a sample.
+    pub fn simulate(&self, v: &[f64], span: Span) -> Vec<f64> {
+        self.respond(&self.path(v, span), &[])
+    }
+
+    /// Where the working point is.
+    pub fn path(&self, v: &[f64], span: Span) -> Path {
+        Path::of(v, self.rule, &self.terms, span)
+    }
+
+    /// The output along a path, which must be that of a system with the same terms and rule. What `beside` has, one value a sample or none, is
+    /// added before the sensor.
+    pub fn respond(&self, path: &Path, beside: &[f64]) -> Vec<f64> {
+        let Path { motion, operator, span } = path;
+        let position = &motion.position;
+        let mut u: Vec<f64> = Vec::with_capacity(position.len());
+        for (t, &p) in position.iter().enumerate() {
+            let (mean, half) = self.borders.at(p);
+            u.push(mean + operator.z[t] * operator.width[t] * half + operator.added[t]);
+        }
+        for term in &self.terms {
+            term.law.input(&term.values, motion, *span, &mut u);
+        }
+        let mut y = self.linear.run(&u);
+        y.iter_mut().zip(beside).for_each(|(y, beside)| *y += beside);
+        for y in &mut y {
+            *y = self.sensor.gain * *y + self.sensor.zero;
+        }
+        for term in &self.terms {
+            term.law.output(&term.values, motion, *span, &mut y);
+        }
+        y
+    }
+}
