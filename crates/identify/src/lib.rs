@@ -36,6 +36,7 @@
 //! | [`simulation`] | periodic responses in closed form, and the sufficient statistics of an experiment by superposition |
 //! | [`pulse`] | estimators for the designed experiments: the paper's, the efficient one, simpler models to compare with |
 //! | [`free`] | the estimator for any record |
+//! | [`record`] | a whole system, effects among it, fitted to any records, its quantities free or fixed |
 //! | [`statistics`] | standard errors, jackknife, block bootstrap, tests of whiteness |
 //!
 //! Source: Y. Rochdi, F. Giri, F. Z. Chaoui, "Identification of Hammerstein systems including a nonparametric switched-hysteresis element", SYSID 2009,
@@ -51,6 +52,7 @@ pub mod free;
 pub mod method;
 mod plus_minus;
 pub mod pulse;
+pub mod record;
 pub mod simulation;
 pub mod statistics;
 

@@ -1,0 +1,188 @@
+//! The filtered error of a system and its derivatives by quantities, free of the traces of initial states.
+
+use super::criterion::Criterion;
+use super::stretch::Stretch;
+use nalgebra::{DMatrix, DVector};
+use switchback_model::system::{Quantity, Scale, System};
+
+/// `H = ΣwJᵀJ`, `g = ΣwJᵀe` and `Σρ(e)`, with `e = PD(y − ŷ)`, `J = PD ∂ŷ/∂θ` and `P` the projection off the initial states, in units of the filtered error's
+/// standard deviation.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Sensitivities {
+    /// `H`: the inverse of the covariance of the estimate.
+    pub information: DMatrix<f64>,
+    /// `g`.
+    pub gradient: DVector<f64>,
+    /// `Σρ(e)`.
+    pub deviance: f64,
+    /// `g` in each of consecutive blocks of samples.
+    pub blocks: Vec<DVector<f64>>,
+}
+
+/// Blocks of a dataset over which a gradient is compared with itself.
+const BLOCKS: usize = 24;
+/// Traces of an initial state are followed until they are this small.
+const FADED: f64 = 1e-3;
+
+impl Sensitivities {
+    /// At a system; derivatives by forward differences, which are exact for quantities in which the run is linear.
+    pub fn of(
+        system: &System,
+        quantities: &[Quantity],
+        stretches: &[Stretch],
+        (criterion, scale): (&Criterion, &Scale),
+    ) -> Self {
+        let count = quantities.len();
+        let moved: Vec<(System, f64)> = quantities
+            .iter()
+            .map(|q| {
+                let step = q.step(system, scale);
+                (q.set(system, q.value(system) + step), step)
+            })
+            .collect();
+        let columns = |stretch: &Stretch, path: &_, run: &[f64]| -> Vec<Vec<f64>> {
+            let column = |(quantity, (moved, step)): (&Quantity, &(System, f64))| {
+                let other = if quantity.moves_the_path() {
+                    stretch.simulate(moved)
+                } else {
+                    stretch.respond(moved, path)
+                };
+                other.iter().zip(run).map(|(o, r)| (o - r) / step).collect()
+            };
+            quantities.iter().zip(&moved).map(column).collect()
+        };
+        let mut sums = Self {
+            information: DMatrix::zeros(count, count),
+            gradient: DVector::zeros(count),
+            deviance: 0.0,
+            blocks: Vec::new(),
+        };
+        for stretch in stretches {
+            let path = system.path(&stretch.v, stretch.span);
+            let run = stretch.respond(system, &path);
+            let columns = columns(stretch, &path, &run);
+            sums.add(system, stretch, (&run, columns), criterion);
+        }
+        sums
+    }
+
+    /// With given derivatives, one list a record and in it one column a quantity.
+    pub fn with_columns(
+        system: &System,
+        columns: Vec<Vec<Vec<f64>>>,
+        stretches: &[Stretch],
+        criterion: &Criterion,
+    ) -> Self {
+        let count = columns.first().map_or(0, Vec::len);
+        let mut sums = Self {
+            information: DMatrix::zeros(count, count),
+            gradient: DVector::zeros(count),
+            deviance: 0.0,
+            blocks: Vec::new(),
+        };
+        for (stretch, columns) in stretches.iter().zip(columns) {
+            let run = stretch.simulate(system);
+            sums.add(system, stretch, (&run, columns), criterion);
+        }
+        sums
+    }
+
+    /// `Σρ(e)` alone.
+    pub fn deviance(system: &System, stretches: &[Stretch], criterion: &Criterion) -> f64 {
+        let of = |stretch: &Stretch| {
+            let run = stretch.simulate(system);
+            let mut error = vec![errors(stretch, &run)];
+            filter_and_project(system, stretch, &mut error, criterion);
+            error[0].iter().map(|e| criterion.loss(*e)).sum::<f64>()
+        };
+        let sum: f64 = stretches.iter().map(of).sum();
+        if sum.is_finite() { sum } else { f64::INFINITY }
+    }
+
+    fn add(
+        &mut self,
+        system: &System,
+        stretch: &Stretch,
+        (run, columns): (&[f64], Vec<Vec<f64>>),
+        criterion: &Criterion,
+    ) {
+        let mut all = columns;
+        all.push(errors(stretch, run));
+        filter_and_project(system, stretch, &mut all, criterion);
+        let error = all.pop().expect("the error is the last");
+        let count = all.len();
+        let roots: Vec<f64> = error.iter().map(|e| criterion.weight(*e).sqrt() / criterion.sd).collect();
+        self.deviance += error.iter().map(|e| criterion.loss(*e)).sum::<f64>();
+        let length = (stretch.span.total / BLOCKS).max(1);
+        let mut from = 0;
+        while from < error.len() {
+            // Blocks of the dataset: the first of a record goes on where the last record ended.
+            let to = error.len().min(from + length - (stretch.span.before + from) % length);
+            let rows = DMatrix::from_fn(count, to - from, |k, t| all[k][from + t] * roots[from + t]);
+            let right = DVector::from_fn(to - from, |t, _| error[from + t] * roots[from + t]);
+            self.information.gemm(1.0, &rows, &rows.transpose(), 1.0);
+            let gradient = rows * right;
+            self.gradient += &gradient;
+            match self.blocks.last_mut() {
+                Some(last) if from == 0 && (stretch.span.before % length) != 0 => *last += gradient,
+                _ => self.blocks.push(gradient),
+            }
+            from = to;
+        }
+    }
+}
+
+/// Errors that are no numbers count as enormous ones.
+fn errors(stretch: &Stretch, run: &[f64]) -> Vec<f64> {
+    stretch.y.iter().zip(run).map(|(y, r)| if r.is_finite() { y - r } else { 1e150 }).collect()
+}
+
+/// Filters signals of a record, and removes from each what initial states of the linear part could make of it.
+fn filter_and_project(system: &System, stretch: &Stretch, signals: &mut [Vec<f64>], criterion: &Criterion) {
+    for signal in signals.iter_mut() {
+        *signal = criterion.filtered(std::mem::take(signal));
+    }
+    for direction in traces(system.linear.a(), stretch.v.len(), criterion) {
+        for signal in signals.iter_mut() {
+            let share: f64 = direction.iter().zip(signal.iter()).map(|(d, x)| d * x).sum();
+            signal.iter_mut().zip(&direction).for_each(|(x, d)| *x -= share * d);
+        }
+    }
+}
+
+/// An orthonormal basis of the filtered responses of `1/A` to its initial states, until they have faded.
+fn traces(a: &[f64], samples: usize, criterion: &Criterion) -> Vec<Vec<f64>> {
+    let radius = switchback_model::linear::spectral_radius(a);
+    let faded = if radius > 0.0 { (FADED.ln() / radius.min(1.0 - 1e-9).ln()).ceil() } else { 1.0 };
+    // Room beyond the fading, since a multiple pole fades later than its radius says.
+    let length = (2.0 * faded + 4.0 * a.len() as f64).min(samples as f64) as usize;
+    let mut basis: Vec<Vec<f64>> = Vec::new();
+    for k in 0..a.len() {
+        let mut x = vec![0.0; length];
+        if k >= length {
+            break;
+        }
+        x[k] = 1.0;
+        for t in k + 1..length {
+            x[t] = -a.iter().enumerate().filter(|(i, _)| t > *i).map(|(i, a)| a * x[t - 1 - i]).sum::<f64>();
+        }
+        let mut x = criterion.filtered(x);
+        let before = norm(&x);
+        for _ in 0..2 {
+            for other in &basis {
+                let share: f64 = other.iter().zip(&x).map(|(o, x)| o * x).sum();
+                x.iter_mut().zip(other).for_each(|(x, o)| *x -= share * o);
+            }
+        }
+        let after = norm(&x);
+        if after > 1e-6 * before {
+            x.iter_mut().for_each(|x| *x /= after);
+            basis.push(x);
+        }
+    }
+    basis
+}
+
+fn norm(x: &[f64]) -> f64 {
+    x.iter().map(|x| x * x).sum::<f64>().sqrt()
+}
