@@ -2,6 +2,7 @@
 
 use schemars::JsonSchema;
 
+use crate::differences::Differences;
 use crate::effect::{Effect, Stage};
 use crate::evidence::Compared;
 use crate::export::PortableModel;
@@ -236,6 +237,9 @@ pub struct Models {
 pub struct Diagnosis {
     /// The answer.
     pub verdict: Verdict,
+    /// What differs between the machine and the model, simulator or records compared with it; absent where the model was identified from the machine's
+    /// own records, or where a source has no gain at rest.
+    pub differences: Option<Differences>,
     /// What a verdict fitted to rigs with known causes says, where nobody designed the records and no order is declared.
     pub second_opinion: Option<SecondOpinion>,
     /// How large the gap is and how far it closes.

@@ -86,6 +86,26 @@ pub enum DiagnoseError {
         /// Order in the rig.
         rig: usize,
     },
+    /// A side of a comparison cannot be identified.
+    #[error("the comparison is not possible: {reason}")]
+    Comparison {
+        /// Why.
+        reason: String,
+    },
+    /// The inputs of both sides of a comparison hardly overlap.
+    #[error(
+        "the input of the records runs from {here_low} to {here_high}, that of the records compared with from {there_low} to {there_high}: they hardly overlap; compare records over the same range, or correct the zero or the unit of one"
+    )]
+    Ranges {
+        /// Lower end of the machine's input.
+        here_low: f64,
+        /// Its upper end.
+        here_high: f64,
+        /// Lower end of the other input.
+        there_low: f64,
+        /// Its upper end.
+        there_high: f64,
+    },
     /// The regression has no solution.
     #[error(
         "the records do not determine the model: {reason}; add a record that moves v over its interval in both directions"

@@ -71,6 +71,7 @@ mod attribution;
 mod closure;
 mod diagnose;
 mod diagnosis;
+pub mod differences;
 mod effect;
 mod effects;
 mod error;

@@ -3,6 +3,7 @@
 use crate::effect::Effect;
 use crate::nominal_model::NominalModel;
 use crate::verdict::fitted::Shares;
+use switchback_model::Record;
 
 /// Knobs of a diagnosis; the defaults are the calibrated ones.
 #[derive(Debug, Clone, PartialEq)]
@@ -80,4 +81,6 @@ pub enum Model {
     Given(NominalModel),
     /// The records' `y_sim`: the prediction of any other simulator.
     Predicted,
+    /// Records of another machine, or of the same on another day: what differs between both is asked.
+    Against(Vec<Record>),
 }

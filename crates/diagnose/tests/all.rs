@@ -2,6 +2,7 @@
 
 mod bad_input;
 mod bench;
+mod differences;
 mod dominant_effects;
 mod given_models;
 mod held_out;

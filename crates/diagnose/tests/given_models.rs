@@ -20,6 +20,12 @@ fn cell(diagnosis: &Diagnosis, axis: &str, name: &str) -> (f64, bool) {
     found.map_or((0.0, false), |c| (c.share, c.q_value < 0.05))
 }
 
+/// The values that differ, and by how much.
+fn rows(diagnosis: &Diagnosis) -> Vec<(String, f64)> {
+    let rows = &diagnosis.differences.as_ref().expect("a comparison").rows;
+    rows.iter().filter(|row| row.differs).map(|row| (row.what.clone(), row.in_b - row.in_a)).collect()
+}
+
 fn found(rig: &Rig, model: Model) -> Diagnosis {
     diagnose(rig, model, &Settings::default()).expect("a diagnosis")
 }
@@ -30,11 +36,14 @@ fn the_map_of_a_given_model_shows_where_it_is_wrong() {
     let wrong = found(&rig, Model::Given(raised(0.1)));
     let (share, significant) = cell(&wrong, "branch", "ascending");
     assert!(significant && share > 0.8, "{:?}", wrong.where_);
-    // Nothing is missing but the right borders.
-    assert_eq!(wrong.verdict.status, Status::Refit, "{:?}", wrong.verdict);
-    let refit = wrong.verdict.refit.expect("a model identified anew");
-    assert_eq!((refit.order, refit.delay), (1, 0));
-    assert!(refit.closure.estimate > 0.95 && wrong.verdict.effects.is_empty(), "{refit:?}");
+    // Nothing is missing: one border that lies higher by 0.1 is half of that in the friction, and half in the zero.
+    assert_eq!(wrong.verdict.status, Status::Parameters, "{:?}", wrong.verdict);
+    assert!(wrong.verdict.effects.is_empty() && wrong.gap.closure.expect("a gap").estimate > 0.95);
+    let mut off = rows(&wrong);
+    off.sort_by(|x, y| x.0.cmp(&y.0));
+    let [(friction, by_friction), (offset, by_offset)] = &off[..] else { panic!("{off:?}") };
+    assert_eq!((friction.as_str(), offset.as_str()), ("friction", "offset"));
+    assert!((by_friction + 0.05).abs() < 0.005 && (by_offset + 0.05).abs() < 0.005, "{off:?}");
     // A model that is right leaves nothing to map, and so does the one identified.
     for model in [Model::Given(raised(0.0)), Model::Identify] {
         let right = found(&rig, model);
@@ -74,10 +83,10 @@ fn worn() -> Vec<RigRecord> {
 
 #[test]
 fn what_has_changed_is_reported_on_top_of_the_given_model() {
-    let dynamics = |found: &Diagnosis| found.models.as_ref().expect("models").augmented.system().a;
+    let pole = |found: &Diagnosis| found.differences.as_ref().expect("a comparison").aligned.linear.a()[0];
     let by_table = found(&rig(None, worn()), Model::Given(raised(0.0)));
     assert_eq!(by_table.verdict.effects, [Effect::Backlash], "{:?}", by_table.verdict);
-    assert!((dynamics(&by_table)[0] + 0.6).abs() < 1e-9, "{:?}", dynamics(&by_table));
+    assert!((pole(&by_table) + 0.6).abs() < 1e-9, "{:?}", pole(&by_table));
     // The same model as another simulator's predictions: what stands in for it behaves as it does.
     let predicted = |mut r: RigRecord| {
         r.predicted = Some(response(r.record.v(), &[-0.6], &mut || 0.0));
@@ -86,8 +95,10 @@ fn what_has_changed_is_reported_on_top_of_the_given_model() {
     let records: Vec<RigRecord> = worn().into_iter().map(predicted).collect();
     let by_runs = found(&rig(None, records), Model::Predicted);
     assert_eq!(by_runs.verdict.effects, [Effect::Backlash], "{:?}", by_runs.verdict);
-    assert!((dynamics(&by_runs)[0] + 0.6).abs() < 1e-3, "{:?}", dynamics(&by_runs));
+    assert!((pole(&by_runs) + 0.6).abs() < 0.01, "{:?}", pole(&by_runs));
     for found in [by_table, by_runs] {
+        let [(play, by)] = &rows(&found)[..] else { panic!("{:?}", rows(&found)) };
+        assert!(play == "play" && (by - 0.3).abs() < 0.01, "{by}");
         let closure = found.gap.closure.expect("a gap").estimate;
         assert!(closure > 0.95, "{closure}");
     }
@@ -100,5 +111,7 @@ fn a_gain_that_is_another_one_is_no_effect() {
         record(&r.name, r.usage, r.record.v().to_vec(), y)
     };
     let found = found(&rig(None, whole().into_iter().map(stronger).collect()), Model::Given(raised(0.0)));
-    assert_eq!(found.verdict.status, Status::Refit, "{:?}", found.verdict);
+    assert_eq!(found.verdict.status, Status::Parameters, "{:?}", found.verdict);
+    let [(gain, by)] = &rows(&found)[..] else { panic!("{:?}", rows(&found)) };
+    assert!(gain == "gain" && (by - 0.2).abs() < 0.01, "{by}");
 }

@@ -27,26 +27,9 @@ impl Analysis {
         Self { plan, conclusion }
     }
 
-    /// Whether it shows a cause.
-    pub(super) fn shows_a_cause(&self) -> bool {
-        matches!(self.conclusion.verdict.status, Status::Named | Status::Class | Status::Ambiguous)
-    }
-
     /// Whether a nominal model of another structure does on the judged records what the augmented model does.
     pub(super) fn does_the_same(&self, chosen: &Chosen) -> bool {
         self.plan.does_the_same(chosen, &self.conclusion.augmented.fit)
-    }
-
-    /// Whether it shows rivals among which another analysis names one.
-    pub(super) fn leaves_open(&self, other: &Self) -> bool {
-        let (rivals, named) = (&self.conclusion.verdict.class, &other.conclusion.verdict);
-        named.status == Status::Named && matches!(named.effects[..], [only] if rivals.contains(&only))
-    }
-
-    /// Whether the augmented model of another analysis does better on the judged records.
-    pub(super) fn is_outdone_by(&self, other: &Self) -> bool {
-        let anew = (&other.plan.dataset, &other.conclusion.augmented.fit);
-        self.plan.is_outdone_by(anew, &self.conclusion.augmented.fit)
     }
 }
 

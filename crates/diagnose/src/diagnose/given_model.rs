@@ -41,7 +41,7 @@ impl GivenModel {
                     fit: Some(given),
                 })
             }
-            Model::Predicted => {
+            Model::Predicted | Model::Against(_) => {
                 let errors = |(scaled, predicted): (&ScaledRecord, Option<Vec<f64>>)| {
                     let errors = |run: Vec<f64>| {
                         scaled.y.iter().zip(run).skip(scaled.from).map(|(y, x)| y - x).collect()

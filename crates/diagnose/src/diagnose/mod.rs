@@ -2,7 +2,6 @@
 
 mod analyses;
 mod attribute;
-mod changed;
 mod compared;
 mod degradation;
 mod evidence;
@@ -16,6 +15,7 @@ mod parameters;
 mod plan;
 mod refit;
 mod report;
+mod sources;
 
 use switchback_model::rig::Rig;
 
@@ -53,26 +53,17 @@ pub fn diagnose_with(
     model: Model,
     settings: &Settings,
 ) -> Result<Diagnosis, DiagnoseError> {
+    if model != Model::Identify {
+        return sources::compared(workers, rig, model, settings);
+    }
     workers.begin(Phase::Nominal);
     let records = Dataset::new(rig)?;
     let declared = declared(rig, &model)?;
     let plan = |chosen: Chosen| Plan::new(rig, &model, settings, chosen);
     let chosen = structure(workers, records.clone(), declared, settings)?;
-    let fixed =
-        changed::plan(workers, (rig, &model), &records, settings)?.map(|plan| Analysis::run(workers, plan));
-    // Where parameters are all that has changed nothing is missing.
-    let counts = fixed
-        .as_ref()
-        .is_some_and(|analysis| analysis.shows_a_cause() && !analysis.does_the_same(chosen.first()));
-    let (mut reported, mut others) = analyse(workers, chosen, &plan)?;
+    let (mut reported, others) = analyse(workers, chosen, &plan)?;
     if declared.is_none() {
         reported = with_room_for_dynamics(workers, reported, (&records, &plan))?;
-    }
-    match fixed {
-        Some(fixed) if counts && (reported.leaves_open(&fixed) || !fixed.is_outdone_by(&reported)) => {
-            others.push(std::mem::replace(&mut reported, fixed))
-        }
-        fixed => others.extend(fixed),
     }
     Ok(Analyses::new(workers, reported, others).report(workers))
 }

@@ -57,11 +57,6 @@ impl Plan {
             .is_some_and(|saved| saved.low <= 0.0)
     }
 
-    /// Whether a model does better on the judged records than a candidate, beyond the error of the difference.
-    pub(super) fn is_outdone_by(&self, other: (&Dataset, &Fit), explained: &Fit) -> bool {
-        self.mean(&self.saved_over(other, explained), explained).is_some_and(|saved| saved.high < 0.0)
-    }
-
     /// Squared error that simulating the judged records with a candidate saves over another model, which sees them as a dataset of its
     /// own.
     fn saved_over(&self, (dataset, fit): (&Dataset, &Fit), explained: &Fit) -> Vec<Vec<f64>> {

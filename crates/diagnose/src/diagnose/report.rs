@@ -74,7 +74,7 @@ impl Plan {
         let each = closures(dataset, &runs, floor, (self.settings.seed, self.settings.resamples));
         gap.per_record.iter_mut().zip(each).for_each(|(record, closure)| record.closure = closure);
         gap.identified_anew = self.identified_anew(floor);
-        if self.given.is_some() && gap.before.ci90[0] > 1.0 {
+        if self.given.is_some() && c.other.is_none() && gap.before.ci90[0] > 1.0 {
             limitations.push(
                 "the model under diagnosis misses the judged records by more than their mean does: compare its units, its sample \
                  time and its coefficients with the rig's"
@@ -115,6 +115,7 @@ impl Plan {
         Diagnosis {
             where_,
             verdict,
+            differences: None,
             second_opinion: None,
             gap,
             candidates,

@@ -41,15 +41,6 @@ pub(crate) enum Choice {
     Either(Chosen, Box<Simulator>),
 }
 
-impl Choice {
-    /// What is fitted already.
-    pub(crate) fn first(&self) -> &Chosen {
-        match self {
-            Self::One(chosen) | Self::Either(chosen, _) => chosen,
-        }
-    }
-}
-
 /// The best structure identified as a simulator.
 #[derive(Debug)]
 pub(crate) struct Simulator {
@@ -194,26 +185,6 @@ fn choose(workers: &impl Workers, dataset: &Dataset, settings: &Settings) -> Res
         (Some(steps), _) => Ok(Choice::One(steps)),
         (None, Some(runs)) => Ok(Choice::One(runs.chosen())),
         (None, None) => Err(unstable()),
-    }
-}
-
-/// The nominal model that simulates the fit records best, of all structures: what behaves as another simulator does, whose predictions the
-/// records hold.
-pub(crate) fn best_simulator(
-    workers: &impl Workers,
-    dataset: &Dataset,
-    settings: &Settings,
-) -> Option<Chosen> {
-    match choose(workers, dataset, settings).ok()? {
-        Choice::One(chosen) => Some(chosen),
-        Choice::Either(steps, simulator) => {
-            let error = if settles(&steps.fit.linear.a) {
-                simulation_error(&steps.dataset, &steps.fit)
-            } else {
-                f64::INFINITY
-            };
-            Some(if error <= simulator.first.power { steps } else { simulator.chosen() })
-        }
     }
 }
 

@@ -13,6 +13,8 @@ use crate::figure::Figure;
 pub enum Status {
     /// Nothing significant, or no gap that the judged records resolve.
     None,
+    /// Values of what was compared with the machine are off, and nothing is missing in it.
+    Parameters,
     /// The parameters of the model under diagnosis are off, or its order: identifying it anew closes the gap.
     Refit,
     /// The effects found.
@@ -27,13 +29,21 @@ pub enum Status {
 
 impl Status {
     /// Every status.
-    pub const ALL: [Self; 6] =
-        [Self::None, Self::Refit, Self::Named, Self::Class, Self::Ambiguous, Self::Unexplained];
+    pub const ALL: [Self; 7] = [
+        Self::None,
+        Self::Parameters,
+        Self::Refit,
+        Self::Named,
+        Self::Class,
+        Self::Ambiguous,
+        Self::Unexplained,
+    ];
 
     /// The name used in reports.
     pub fn name(self) -> &'static str {
         match self {
             Self::None => "none",
+            Self::Parameters => "parameters",
             Self::Refit => "refit",
             Self::Named => "named",
             Self::Class => "class",

@@ -1,0 +1,257 @@
+//! A machine beside a model, a simulator or other records: the diagnosis of what differs between both.
+
+use switchback_identify::free::FreeError;
+use switchback_model::Record;
+use switchback_model::linear::is_stable;
+use switchback_model::reversal::ReversalRule;
+use switchback_model::rig::{Rig, Usage};
+use switchback_model::system::{Borders, LinearPart, Sensor, System};
+
+use super::plan::Plan;
+use super::report::{Conclusion, Other};
+use crate::diagnosis::{Candidate, Diagnosis};
+use crate::differences::{Differences, MachineRecord, RowKind, Source, compare};
+use crate::effect::Effect;
+use crate::error::DiagnoseError;
+use crate::nominal::order::{Choice, declared, structure};
+use crate::nominal_model::NominalModel;
+use crate::phase::Phase;
+use crate::records::dataset::{Dataset, dimensionless};
+use crate::settings::{Model, Settings};
+use crate::verdict::answer::{Status, Verdict, naming_nothing};
+use crate::verdict::odds::Odds;
+use crate::workers::Workers;
+
+/// Compares a rig with the model or the source, and reports the differences.
+pub(super) fn compared(
+    workers: &impl Workers,
+    rig: &Rig,
+    model: Model,
+    settings: &Settings,
+) -> Result<Diagnosis, DiagnoseError> {
+    workers.begin(Phase::Nominal);
+    let dataset = Dataset::new(rig)?;
+    let declared = declared(rig, &model)?;
+    let differences = differences(rig, &model)?;
+    // Where only other records are known, the model under diagnosis is the system that stands for them.
+    let (rig, model) = match (&model, &differences) {
+        (Model::Against(_), Some(found)) => (with_runs(rig, found), Model::Predicted),
+        _ => (rig.clone(), model),
+    };
+    let chosen = match structure(workers, dataset, declared, settings)? {
+        Choice::One(chosen) | Choice::Either(chosen, _) => chosen,
+    };
+    let plan = Plan::new(&rig, &model, &Settings { effects: Vec::new(), ..settings.clone() }, chosen)?;
+    workers.begin(Phase::Report);
+    Ok(report(plan, &rig, differences))
+}
+
+/// The comparison itself; none where the source has no gain at rest.
+fn differences(rig: &Rig, model: &Model) -> Result<Option<Differences>, DiagnoseError> {
+    let source = match model {
+        Model::Identify => return Ok(None),
+        Model::Predicted => Source::Predictions,
+        Model::Given(model) => match system(model) {
+            Some(system) => Source::Model(system),
+            None => return Ok(None),
+        },
+        Model::Against(records) => {
+            overlap(rig, records)?;
+            Source::Records(records.clone())
+        }
+    };
+    let whole = |predicted: &&Vec<f64>, record: &Record| {
+        predicted.len() == record.len() && predicted.iter().all(|y| y.is_finite())
+    };
+    // Where only held-out records have predictions the comparison has no others.
+    let is_known = |usage: Usage| {
+        rig.records
+            .iter()
+            .any(|r| r.usage == usage && r.predicted.as_ref().is_some_and(|p| whole(&p, &r.record)))
+    };
+    let fitted = match source == Source::Predictions && !is_known(Usage::Fit) {
+        true => Usage::Holdout,
+        false => Usage::Fit,
+    };
+    let machine = rig.records.iter().map(|r| MachineRecord {
+        record: &r.record,
+        predicted: r.predicted.as_ref().filter(|p| whole(p, &r.record)).map(Vec::as_slice),
+        is_fitted: r.usage == fitted,
+    });
+    compare(&machine.collect::<Vec<_>>(), &source).map_err(|error| refused(&error))
+}
+
+fn refused(error: &FreeError) -> DiagnoseError {
+    DiagnoseError::Comparison { reason: error.to_string() }
+}
+
+/// A given model as a system; none where its gain at rest is zero.
+fn system(model: &NominalModel) -> Option<System> {
+    if !is_stable(&model.a) {
+        return None;
+    }
+    let (linear, gain) = LinearPart::new(&model.a, &model.b, 1)?;
+    let scaled = |points: &[(f64, f64)]| points.iter().map(|(v, u)| (*v, gain * u)).collect::<Vec<_>>();
+    let borders = Borders::new(&scaled(&model.descending), &scaled(&model.ascending))?;
+    Some(System { borders, linear, sensor: Sensor::EXACT, terms: Vec::new(), rule: ReversalRule::EXACT })
+}
+
+/// Share of the smaller of two ranges that must lie in the other.
+const OVERLAP: f64 = 0.5;
+
+fn overlap(rig: &Rig, records: &[Record]) -> Result<(), DiagnoseError> {
+    let range = |values: &mut dyn Iterator<Item = f64>| {
+        values.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), v| (low.min(v), high.max(v)))
+    };
+    let (here_low, here_high) = range(&mut rig.records.iter().flat_map(|r| r.record.v().iter().copied()));
+    let (there_low, there_high) = range(&mut records.iter().flat_map(|r| r.v().iter().copied()));
+    let common = here_high.min(there_high) - here_low.max(there_low);
+    if common < OVERLAP * (here_high - here_low).min(there_high - there_low) {
+        return Err(DiagnoseError::Ranges { here_low, here_high, there_low, there_high });
+    }
+    Ok(())
+}
+
+fn with_runs(rig: &Rig, found: &Differences) -> Rig {
+    let mut rig = rig.clone();
+    for (record, [run, _]) in rig.records.iter_mut().zip(&found.runs) {
+        record.predicted = Some(run.clone());
+    }
+    rig
+}
+
+fn report(mut plan: Plan, rig: &Rig, differences: Option<Differences>) -> Diagnosis {
+    // Its own nominal model measures the machine's noise and is not what is asked about: nobody needs to know of its order.
+    plan.limitations.retain(|limitation| !limitation.starts_with("the rig declares no order"));
+    let Some(found) = differences else {
+        plan.limitations.push(
+            "what was compared has no gain at rest, so that its values cannot be set against those of the machine"
+                .into(),
+        );
+        let verdict = naming_nothing(Status::Unexplained, None, 1.0);
+        let conclusion = conclusion(&plan, verdict, None);
+        return plan.report(conclusion, Vec::new(), Vec::new());
+    };
+    for shift in &found.shifts {
+        plan.limitations.push(format!(
+            "record `{}` lies {:+.3e} ± {:.1e} output units beside the aligned prediction: its zero is not that of the records that were \
+             fitted",
+            rig.records[shift.record].name, shift.offset, shift.se
+        ));
+    }
+    let runs = plan
+        .judged
+        .iter()
+        .map(|&k| dimensionless(&found.runs[k][1], plan.dataset.y_mean, plan.dataset.y_scale));
+    let runs: Vec<Vec<f64>> = runs.collect();
+    let floor = floor(&plan, &found);
+    let other = Other { structure: plan.structure, runs, floor };
+    let verdict = verdict(&plan, &found, &other);
+    let candidates = candidates(&found);
+    let conclusion = conclusion(&plan, verdict, Some(other));
+    Diagnosis { differences: Some(found), ..plan.report(conclusion, candidates, Vec::new()) }
+}
+
+/// Variance of the machine's noise and its relative standard error: that which its own model leaves, or the aligned source, whichever leaves less.
+fn floor(plan: &Plan, found: &Differences) -> (f64, f64) {
+    let own = plan.noise_floor(&plan.nominal.plain.fit);
+    let scaled = &plan.dataset.scaled_records;
+    let fitted = scaled.iter().enumerate().filter(|(_, record)| record.is_fit());
+    let (mut square, mut count) = (0.0, 0.0);
+    for (k, record) in fitted {
+        let run = dimensionless(&found.runs[k][1], plan.dataset.y_mean, plan.dataset.y_scale);
+        for t in record.from..record.y.len() {
+            square += (record.y[t] - run[t]).powi(2);
+            count += 1.0;
+        }
+    }
+    let aligned = square / f64::max(count, 1.0);
+    if count > 0.0 && aligned < own.0 { (aligned, 2.0 * (2.0 / count).sqrt()) } else { own }
+}
+
+fn conclusion(plan: &Plan, verdict: Verdict, other: Option<Other>) -> Conclusion {
+    let probability = verdict.probability;
+    let (none, unexplained) = match verdict.status {
+        Status::None => (probability, 1.0 - probability),
+        Status::Unexplained => (1.0 - probability, probability),
+        _ => (0.0, 1.0 - probability),
+    };
+    Conclusion {
+        fitted: Vec::new(),
+        singles: Vec::new(),
+        odds: Odds { effects: Vec::new(), none, unexplained },
+        verdict: Verdict { calibrated: false, ..verdict },
+        augmented: plan.nominal.plain.clone(),
+        left: 0.0,
+        together: None,
+        other,
+    }
+}
+
+/// Effects that the source lacks and the machine has, in the order of what they explain.
+fn missing(found: &Differences) -> Vec<(Effect, &crate::differences::Row)> {
+    let terms = found.rows.iter().filter(|row| row.differs && row.kind == RowKind::Effect && row.in_a == 0.0);
+    let mut all: Vec<(Effect, &crate::differences::Row)> = Vec::new();
+    for row in terms {
+        let Some(effect) = row.effect.and_then(Effect::from_name) else { continue };
+        if all.iter().all(|(other, _)| *other != effect) {
+            all.push((effect, row));
+        }
+    }
+    all
+}
+
+/// Most effects that a verdict names together.
+const MOST_NAMED: usize = 2;
+
+fn verdict(plan: &Plan, found: &Differences, other: &Other) -> Verdict {
+    let differs = found.rows.iter().any(|row| row.differs);
+    let missing = missing(found);
+    let probability =
+        found.rows.iter().filter(|row| row.differs).map(|row| row.probability).fold(1.0, f64::min);
+    // Mean square error of the aligned source on the judged records over that of the noise.
+    let (mut square, mut count) = (0.0, 0.0);
+    for (run, &k) in other.runs.iter().zip(&plan.judged) {
+        let record = &plan.dataset.scaled_records[k];
+        for t in record.from..record.y.len() {
+            square += (record.y[t] - run[t]).powi(2);
+            count += 1.0;
+        }
+    }
+    let left = square / f64::max(count, 1.0) / other.floor.0.max(f64::MIN_POSITIVE);
+    let explains = left < EXPLAINED;
+    let effects: Vec<Effect> = missing.iter().take(MOST_NAMED).map(|(effect, _)| *effect).collect();
+    match (differs, effects.first()) {
+        (false, _) if explains => naming_nothing(Status::None, None, 1.0 - most_probable_change(found)),
+        (true, None) if explains => naming_nothing(Status::Parameters, None, probability),
+        (true, Some(first)) if explains => Verdict {
+            effects: effects.clone(),
+            ..naming_nothing(Status::Named, Some(first.stage()), probability)
+        },
+        _ => naming_nothing(Status::Unexplained, None, 1.0),
+    }
+}
+
+/// Mean square error over the noise up to which the aligned source explains the records: the noise itself has one, and the same again is a misfit as large as the noise.
+const EXPLAINED: f64 = 2.0;
+
+/// The largest probability of a difference that was not taken.
+fn most_probable_change(found: &Differences) -> f64 {
+    found.rows.iter().filter(|row| !row.differs).map(|row| row.probability).fold(0.0, f64::max)
+}
+
+fn candidates(found: &Differences) -> Vec<Candidate> {
+    let one = |(effect, row): (Effect, &crate::differences::Row)| Candidate {
+        effect,
+        stage: effect.stage(),
+        probability: row.probability,
+        parameters: Vec::new(),
+        bic: -row.gain,
+        delta_bic: row.gain,
+        heldout_log_score: 0.0,
+        gains: Vec::new(),
+        closure: Some(row.closure),
+        unstable: false,
+    };
+    missing(found).into_iter().map(one).collect()
+}

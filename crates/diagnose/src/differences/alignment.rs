@@ -1,0 +1,63 @@
+//! First look at a pair: sign, factor and delay, by one regression of the measured output on the shifted prediction.
+
+/// `y ≈ factor·y_A(t − delay) + constant`.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Alignment {
+    pub(super) factor: f64,
+    pub(super) delay: isize,
+    /// Share of the variance of `y` that it explains.
+    pub(super) explained: f64,
+}
+
+/// Whole delays tried, either way.
+const MOST_DELAY: isize = 30;
+
+/// The regression of the delay that explains most; records are given as `(y, y_A)`.
+pub(super) fn align(records: &[(&[f64], &[f64])]) -> Option<Alignment> {
+    let tried = (-MOST_DELAY..=MOST_DELAY).filter_map(|delay| regression(records, delay));
+    // Of equals the delay nearest to none.
+    tried.max_by(|x, y| x.explained.total_cmp(&y.explained).then(y.delay.abs().cmp(&x.delay.abs())))
+}
+
+/// The regression at a delay; none where either signal is constant.
+pub(super) fn regression(records: &[(&[f64], &[f64])], delay: isize) -> Option<Alignment> {
+    if records.is_empty() {
+        return None;
+    }
+    let pairs = || {
+        records.iter().flat_map(move |(y, x)| {
+            let skipped = MOST_DELAY as usize;
+            let inside = skipped..y.len().saturating_sub(skipped).max(skipped);
+            inside.map(move |t| (x[t.wrapping_add_signed(-delay)], y[t]))
+        })
+    };
+    let count = pairs().count() as f64;
+    let (sx, sy) = pairs().fold((0.0, 0.0), |(a, b), (x, y)| (a + x, b + y));
+    let (mx, my) = (sx / count, sy / count);
+    let moments = pairs().fold([0.0; 3], |[xx, xy, yy], (x, y)| {
+        let (x, y) = (x - mx, y - my);
+        [xx + x * x, xy + x * y, yy + y * y]
+    });
+    let [xx, xy, yy] = moments;
+    (xx > 0.0 && yy > 0.0 && count > 2.0).then(|| Alignment {
+        factor: xy / xx,
+        delay,
+        explained: xy * xy / (xx * yy),
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn sign_factor_and_delay_are_read_off() {
+        let x: Vec<f64> =
+            (0..500).map(|t| (0.11 * f64::from(t)).sin() + (0.031 * f64::from(t)).cos()).collect();
+        let y: Vec<f64> = (0..500).map(|t: usize| 3.0 - 2.5 * x[t.saturating_sub(4)]).collect();
+        let found = align(&[(&y, &x)]).unwrap();
+        assert_eq!(found.delay, 4);
+        assert!((found.factor + 2.5).abs() < 1e-9 && found.explained > 1.0 - 1e-9);
+        assert_eq!(align(&[(&y, &[1.0; 500])]), None);
+    }
+}

@@ -1,0 +1,153 @@
+//! The comparison itself.
+
+use super::alignment::{Alignment, align, regression};
+use super::rows::{Row, rows};
+use super::selection::{Context, Difference, with};
+use super::source::Source;
+use super::surrogate::bare;
+use switchback_identify::free::FreeError;
+use switchback_identify::record::{Criterion, Stretch};
+use switchback_model::Record;
+use switchback_model::stray::screened;
+use switchback_model::system::{Quantity, Scale, System};
+
+/// A record of the machine.
+#[derive(Debug, Clone, Copy)]
+pub struct MachineRecord<'a> {
+    /// Input and measured output.
+    pub record: &'a Record,
+    /// The prediction of the source, one value a sample, where it is known.
+    pub predicted: Option<&'a [f64]>,
+    /// Whether differences are fitted to it.
+    pub is_fitted: bool,
+}
+
+/// Differences between a machine and a source.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Differences {
+    /// Every quantity on both sides: those that differ first.
+    pub rows: Vec<Row>,
+    /// The system that stands for the source.
+    pub source: System,
+    /// The same with the values of the machine.
+    pub aligned: System,
+    /// Standard deviation of the filtered error that is left, output units.
+    pub noise: f64,
+    /// For every record of the machine the run of the source and that of the aligned one.
+    pub runs: Vec<[Vec<f64>; 2]>,
+    /// Records that were not fitted and differ from those that were.
+    pub shifts: Vec<Shift>,
+}
+
+/// A record whose output lies beside the aligned run of the source by a constant.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Shift {
+    /// Number of the record.
+    pub record: usize,
+    /// Mean error of the aligned run, output units.
+    pub offset: f64,
+    /// Its standard error.
+    pub se: f64,
+}
+
+/// Rounds of selection, each with the noise model of the errors that the last one left.
+const ROUNDS: usize = 3;
+
+/// Compares a machine with a source. None where the machine or the source has no gain at rest, so that no system of the kind describes it.
+///
+/// # Errors
+/// [`FreeError`] where one of both sides cannot be identified.
+pub fn compare(machine: &[MachineRecord<'_>], source: &Source) -> Result<Option<Differences>, FreeError> {
+    let (screened, _) = screened(&machine.iter().map(|m| m.record).collect::<Vec<_>>());
+    let all = Stretch::all(&screened.iter().map(|r| (r.v(), r.y())).collect::<Vec<_>>());
+    let is_used =
+        |m: &MachineRecord<'_>| m.is_fitted && (*source != Source::Predictions || m.predicted.is_some());
+    let used: Vec<usize> = (0..machine.len()).filter(|&k| is_used(&machine[k])).collect();
+    let fitted: Vec<&Record> = used.iter().map(|&k| &screened[k]).collect();
+    let plain: Vec<Stretch> = used.iter().map(|&k| all[k].clone()).collect();
+    let Some(own) = bare(&fitted)? else { return Ok(None) };
+    let mut criterion = Criterion { filter: Vec::new(), sd: Criterion::of(&errors(&own, &plain)).sd };
+    let predicted: Vec<Record> = used
+        .iter()
+        .filter_map(|&k| Record::new(screened[k].v().to_vec(), machine[k].predicted?.to_vec()).ok())
+        .collect();
+    let outputs: Vec<(&[f64], &[f64])> = fitted.iter().zip(&predicted).map(|(m, p)| (m.y(), p.y())).collect();
+    // A sign or a unit is no small change: the prediction shows it before anything is fitted.
+    let aligned = align(&outputs);
+    let noise = criterion.sd / aligned.map_or(1.0, |a| a.factor.abs().max(f64::MIN_POSITIVE));
+    let Some(found) = source.identified(&predicted, noise)? else { return Ok(None) };
+    let carried = |stretch: &Stretch, predicted: Option<&[f64]>| match predicted {
+        Some(predicted) if found.is_carried => stretch.carrying(&found.system, predicted),
+        _ => stretch.clone(),
+    };
+    let stretches: Vec<Stretch> = used.iter().map(|&k| carried(&all[k], machine[k].predicted)).collect();
+    let scale = Scale::of(&found.system, &plain.iter().map(|s| (&s.v[..], &s.y[..])).collect::<Vec<_>>());
+    let samples = plain.iter().map(|s| s.v.len()).sum();
+    let mut start = start(regression(&outputs, 0), aligned);
+    let mut rounds = (0..ROUNDS).map(|_| {
+        let context = Context {
+            base: &found.system,
+            stretches: &stretches,
+            criterion: &criterion,
+            scale: &scale,
+            samples,
+        };
+        let selected = context.select(start.clone());
+        let (system, _) = with(&found.system, &selected.differences);
+        let table = rows(context, &selected, &found.records);
+        start = selected.differences;
+        criterion = Criterion::of(&errors(&system, &stretches));
+        (table, system, criterion.sd)
+    });
+    let Some((rows, aligned, noise)) = rounds.by_ref().last() else { return Ok(None) };
+    drop(rounds);
+    let runs: Vec<[Vec<f64>; 2]> = machine
+        .iter()
+        .zip(&all)
+        .map(|(m, stretch)| {
+            let stretch = carried(stretch, m.predicted);
+            [stretch.simulate(&found.system), stretch.simulate(&aligned)]
+        })
+        .collect();
+    let shifts = (0..machine.len())
+        .filter(|k| !machine[*k].is_fitted)
+        .filter_map(|k| shift(k, screened[k].y(), &runs[k][1], noise))
+        .collect();
+    Ok(Some(Differences { rows, source: found.system, aligned, noise, runs, shifts }))
+}
+
+/// Errors of the free runs.
+fn errors(system: &System, stretches: &[Stretch]) -> Vec<Vec<f64>> {
+    let of = |s: &Stretch| s.simulate(system).iter().zip(&s.y).map(|(run, y)| y - run).collect();
+    stretches.iter().map(of).collect()
+}
+
+/// The differences from which a selection starts: a factor far from one, where the regression on the prediction finds it.
+fn start(now: Option<Alignment>, best: Option<Alignment>) -> Vec<Difference> {
+    const NEAR: std::ops::Range<f64> = 0.2..5.0;
+    match now.and(best) {
+        Some(best) if !NEAR.contains(&best.factor) => vec![Difference::Quantity(Quantity::Gain, best.factor)],
+        _ => Vec::new(),
+    }
+}
+
+/// Pieces of a record whose means are compared.
+const PIECES: usize = 20;
+/// Student's quantile of 19 degrees of freedom at a two-sided level of 10⁻³.
+const BEYOND_CHANCE: f64 = 3.88;
+
+/// The mean error of a record, where it is beyond chance by its scatter over pieces, and as large as a tenth of the noise.
+fn shift(record: usize, y: &[f64], run: &[f64], noise: f64) -> Option<Shift> {
+    let errors: Vec<f64> = y.iter().zip(run).map(|(y, run)| y - run).collect();
+    let length = errors.len() / PIECES;
+    if length < 5 {
+        return None;
+    }
+    let means: Vec<f64> =
+        errors.chunks_exact(length).map(|piece| piece.iter().sum::<f64>() / length as f64).collect();
+    let count = means.len() as f64;
+    let offset = means.iter().sum::<f64>() / count;
+    let variance = means.iter().map(|m| (m - offset).powi(2)).sum::<f64>() / (count - 1.0);
+    let se = (variance / count).sqrt();
+    (offset.abs() > BEYOND_CHANCE * se && offset.abs() > 0.1 * noise).then_some(Shift { record, offset, se })
+}

@@ -1,0 +1,171 @@
+//! The table of differences.
+
+use super::selection::{Context, Difference, Selected, quantities, with};
+use super::surrogate::{own_errors, price};
+use nalgebra::{DMatrix, DVector};
+use switchback_identify::record::{Sensitivities, Stretch};
+use switchback_model::system::{Quantity, System, Unit};
+
+/// What kind of thing a row is about.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum RowKind {
+    /// A value that both sides have.
+    Parameter,
+    /// An effect on either side.
+    Effect,
+}
+
+/// One quantity on both sides.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Row {
+    /// Its name.
+    pub what: String,
+    /// The effect whose parameter it is, where it is one.
+    pub effect: Option<&'static str>,
+    /// Parameter or effect.
+    pub kind: RowKind,
+    /// Its value in the source, a delay relative to the machine's; zero for the strength of an effect that this lacks.
+    pub in_a: f64,
+    /// Its value in the machine.
+    pub in_b: f64,
+    /// Standard error of the former, as if the misfit of the source's system were noise.
+    pub se_a: f64,
+    /// Standard error of the latter, that of the former included.
+    pub se: f64,
+    /// Unit of all three.
+    pub unit: Unit,
+    /// Probability that it differs, by the weights of the extended BIC.
+    pub probability: f64,
+    /// Whether it differs.
+    pub differs: bool,
+    /// Share of the gap that aligning it alone closes.
+    pub closure: f64,
+    /// Deviance that the gap would grow by without it.
+    pub gain: f64,
+}
+
+/// All rows: those that differ first, by what the gap would grow by without them.
+pub(super) fn rows(context: Context<'_>, selected: &Selected, source: &[Stretch]) -> Vec<Row> {
+    let (aligned, free) = with(context.base, &selected.differences);
+    let open: Vec<Quantity> = quantities(context.base).filter(|q| !free.contains(q)).collect();
+    let all = [&free[..], &open].concat();
+    let local = Sensitivities::of(&aligned, &all, context.stretches, (context.criterion, context.scale));
+    let errors = errors(&local, free.len());
+    let before = Sensitivities::deviance(context.base, context.stretches, context.criterion);
+    let gap = before - selected.deviance;
+    let own: Vec<Quantity> = quantities(context.base).collect();
+    let own_errors = own_errors(context.base, source, context.scale, &own);
+    let mut rows: Vec<Row> = Vec::new();
+    for (k, quantity) in all.iter().enumerate() {
+        let differs = k < free.len();
+        let (effect, kind) = match quantity {
+            Quantity::Value(term, _) => (Some(aligned.terms[*term].law.effect()), RowKind::Effect),
+            _ => (None, RowKind::Parameter),
+        };
+        let in_a = in_base(context.base, *quantity);
+        let se_a = own.iter().position(|q| q == quantity).map_or(0.0, |at| own_errors[at]);
+        let (in_b, se) = (quantity.value(&aligned) + errors[k].0, errors[k].1);
+        // Only the difference of two delays means anything: the machine's is the origin.
+        let (in_a, in_b) = match quantity {
+            Quantity::Delay => (in_a - in_b, 0.0),
+            _ => (in_a, in_b),
+        };
+        let gain = if differs { gain_of(context, selected, *quantity) } else { ((in_b - in_a) / se).powi(2) };
+        let alone = if differs { before - alone(context, selected, *quantity) } else { 0.0 };
+        let odds = 0.5 * (gain - price(context.samples, 1));
+        rows.push(Row {
+            what: quantity.name(&aligned),
+            effect,
+            kind,
+            in_a,
+            in_b,
+            se_a,
+            se: se.hypot(se_a),
+            unit: quantity.unit(&aligned),
+            probability: 1.0 / (1.0 + (-odds).exp()),
+            differs,
+            closure: if gap > 0.0 { alone / gap } else { 0.0 },
+            gain,
+        });
+    }
+    // Those that are the same stay in the order of the quantities.
+    rows[..free.len()].sort_by(|x, y| y.gain.total_cmp(&x.gain));
+    rows
+}
+
+/// The value of a quantity in the base; zero where it is the strength of an effect that this lacks, and no number for a shape.
+fn in_base(base: &System, quantity: Quantity) -> f64 {
+    match quantity {
+        Quantity::Value(term, index) if term >= base.terms.len() => {
+            if index == 0 {
+                0.0
+            } else {
+                f64::NAN
+            }
+        }
+        _ => quantity.value(base),
+    }
+}
+
+/// Deviance of the base with one difference alone.
+fn alone(context: Context<'_>, selected: &Selected, quantity: Quantity) -> f64 {
+    let own = place(context, selected, quantity).map(|at| selected.differences[at].clone());
+    let (system, _) = with(context.base, own.as_slice());
+    Sensitivities::deviance(&system, context.stretches, context.criterion)
+}
+
+/// What dropping the difference that a quantity belongs to would lose.
+fn gain_of(context: Context<'_>, selected: &Selected, quantity: Quantity) -> f64 {
+    let Some(at) = place(context, selected, quantity) else { return 0.0 };
+    let mut fewer = selected.differences.clone();
+    fewer.remove(at);
+    let (system, _) = with(context.base, &fewer);
+    Sensitivities::deviance(&system, context.stretches, context.criterion) - selected.deviance
+}
+
+/// The difference that a quantity belongs to.
+fn place(context: Context<'_>, selected: &Selected, quantity: Quantity) -> Option<usize> {
+    let mut terms = context.base.terms.len();
+    let belongs = |d: &Difference| match d {
+        Difference::Quantity(own, _) => *own == quantity,
+        Difference::Effect(_) => {
+            terms += 1;
+            matches!(quantity, Quantity::Value(term, _) if term + 1 == terms)
+        }
+    };
+    selected.differences.iter().position(belongs)
+}
+
+/// For every quantity `(step, standard error)`: free ones jointly, at whose optimum no step is left; each other one as if it were let free beside them.
+fn errors(local: &Sensitivities, free: usize) -> Vec<(f64, f64)> {
+    let joint = |chosen: &[usize]| -> (DVector<f64>, DMatrix<f64>) {
+        let n = chosen.len();
+        let scale = |i: usize| local.information[(chosen[i], chosen[i])].sqrt().max(f64::MIN_POSITIVE);
+        let h = DMatrix::from_fn(n, n, |i, j| {
+            local.information[(chosen[i], chosen[j])] / (scale(i) * scale(j))
+                + if i == j { 1e-10 } else { 0.0 }
+        });
+        let inverse = h.try_inverse().unwrap_or_else(|| DMatrix::from_element(n, n, f64::NAN));
+        let covariance = DMatrix::from_fn(n, n, |i, j| inverse[(i, j)] / (scale(i) * scale(j)));
+        let gradient = DVector::from_fn(n, |i, _| local.gradient[chosen[i]]);
+        let step = &covariance * gradient;
+        // The scatter of the gradient over blocks allows for errors that are not as the criterion has them.
+        let mut scatter = DMatrix::zeros(n, n);
+        for block in &local.blocks {
+            let g = DVector::from_fn(n, |i, _| block[chosen[i]]);
+            scatter.ger(1.0, &g, &g, 1.0);
+        }
+        let robust = &covariance * scatter * &covariance;
+        let larger =
+            DMatrix::from_fn(n, n, |i, j| if i == j { covariance[(i, i)].max(robust[(i, i)]) } else { 0.0 });
+        (step, larger)
+    };
+    let taken: Vec<usize> = (0..free).collect();
+    let (_, covariance) = joint(&taken);
+    let own = (0..free).map(|k| (0.0, covariance[(k, k)].sqrt()));
+    let others = (free..local.gradient.len()).map(|k| {
+        let (step, covariance) = joint(&[&taken[..], &[k]].concat());
+        (step[free], covariance[(free, free)].sqrt())
+    });
+    own.chain(others).collect()
+}

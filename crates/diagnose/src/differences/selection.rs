@@ -1,0 +1,171 @@
+//! Which differences the machine's records call for.
+
+use super::surrogate::{gains, of_term, price, scores, starts};
+use switchback_identify::record::{Criterion, Effort, Sensitivities, Stretch, fit};
+use switchback_model::system::{Quantity, Scale, System, Term};
+
+/// One difference between two systems.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) enum Difference {
+    /// A quantity has another value.
+    Quantity(Quantity, f64),
+    /// An effect is there that the base lacks.
+    Effect(Term),
+}
+
+impl Difference {
+    /// Numbers that it takes to describe it.
+    pub(super) fn parameters(&self) -> usize {
+        match self {
+            Self::Quantity(..) => 1,
+            // A constant of its law was chosen from several starts: it counts as well.
+            Self::Effect(term) => term.values.len(),
+        }
+    }
+}
+
+/// The base with some differences, and the quantities by which these are described.
+pub(super) fn with(base: &System, differences: &[Difference]) -> (System, Vec<Quantity>) {
+    let mut system = base.clone();
+    let mut free = Vec::new();
+    for difference in differences {
+        if let Difference::Effect(term) = difference {
+            system.terms.push(term.clone());
+            free.extend(of_term(&system, system.terms.len() - 1));
+        }
+    }
+    let mut own: Vec<(Quantity, f64)> = differences
+        .iter()
+        .filter_map(|d| match d {
+            Difference::Quantity(quantity, value) => Some((*quantity, *value)),
+            Difference::Effect(_) => None,
+        })
+        .collect();
+    // Widths before slopes, slopes before curvatures: each leaves what is set after it to be set.
+    own.sort_by_key(|(quantity, _)| *quantity);
+    for (quantity, value) in &own {
+        system = quantity.set(&system, *value);
+    }
+    (system, own.iter().map(|(q, _)| *q).chain(free).collect())
+}
+
+/// The differences as a system has them.
+fn read(system: &System, base: &System, differences: &[Difference]) -> Vec<Difference> {
+    let mut terms = system.terms[base.terms.len()..].iter();
+    let read = |difference: &Difference| match difference {
+        Difference::Quantity(quantity, _) => Difference::Quantity(*quantity, quantity.value(system)),
+        Difference::Effect(_) => Difference::Effect(terms.next().expect("a term an effect").clone()),
+    };
+    differences.iter().map(read).collect()
+}
+
+/// How far a selection has come.
+#[derive(Debug, Clone)]
+pub(super) struct Selected {
+    pub(super) differences: Vec<Difference>,
+    /// `Σρ` at these.
+    pub(super) deviance: f64,
+}
+
+/// Candidates that are fitted at each step, of those that are scored.
+const FITTED: usize = 5;
+/// A further difference must explain this share of what those before it explain: less is no difference that anybody would act on.
+const LEAST_SHARE: f64 = 0.01;
+/// Most differences.
+const MOST: usize = 10;
+/// Delays from which a fit starts, samples.
+const DELAYS: [f64; 6] = [-6.0, -3.0, -1.0, 1.0, 3.0, 6.0];
+
+/// What a selection compares systems by.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Context<'a> {
+    pub(super) base: &'a System,
+    pub(super) stretches: &'a [Stretch],
+    pub(super) criterion: &'a Criterion,
+    pub(super) scale: &'a Scale,
+    pub(super) samples: usize,
+}
+
+impl Context<'_> {
+    fn fit(&self, differences: &[Difference], effort: Effort) -> Selected {
+        let (start, free) = with(self.base, differences);
+        let (system, deviance) = fit(&start, &free, self.stretches, (self.criterion, self.scale), effort);
+        Selected { differences: read(&system, self.base, differences), deviance }
+    }
+
+    fn worth(&self, selected: &Selected) -> f64 {
+        let prices = selected.differences.iter().map(|d| price(self.samples, d.parameters()));
+        selected.deviance + prices.sum::<f64>()
+    }
+
+    /// The cheaper of two searches: one over all candidates, and one that looks at quantities of both sides alone until none gains any more, since a flexible
+    /// law can pass for several values that are off.
+    pub(super) fn select(&self, start: Vec<Difference>) -> Selected {
+        let start = self.fit(&start, Effort::SEARCH);
+        let at_once = self.stepwise(start.clone(), true);
+        let apart = self.stepwise(self.stepwise(start, false), true);
+        let best = if self.worth(&apart) <= self.worth(&at_once) { apart } else { at_once };
+        self.fit(&best.differences, Effort::FINAL)
+    }
+
+    /// Stepwise: the candidate that gains most is taken while it gains more than its price, and after each step those are dropped that no longer do.
+    fn stepwise(&self, mut now: Selected, with_effects: bool) -> Selected {
+        loop {
+            now = self.without_the_needless(now);
+            if now.differences.len() >= MOST {
+                return now;
+            }
+            match self.best_addition(&now, with_effects) {
+                Some(next) => now = next,
+                None => return now,
+            }
+        }
+    }
+
+    /// The best addition, if it gains more than its price.
+    fn best_addition(&self, now: &Selected, with_effects: bool) -> Option<Selected> {
+        let (system, taken) = with(self.base, &now.differences);
+        let context = (self.criterion, self.scale);
+        let mut tries: Vec<(f64, Difference)> = Vec::new();
+        let open: Vec<Quantity> = quantities(self.base).filter(|q| !taken.contains(q)).collect();
+        let all = [&taken[..], &open].concat();
+        let local = Sensitivities::of(&system, &all, self.stretches, context);
+        for (gain, quantity) in gains(&local, taken.len()).into_iter().zip(&open) {
+            tries.push((gain, Difference::Quantity(*quantity, quantity.value(&system))));
+        }
+        let terms = if with_effects { starts(self.scale, &system.terms) } else { Vec::new() };
+        let scores = scores(&system, &taken, &terms, self.stretches, context);
+        tries.extend(scores.into_iter().zip(terms.into_iter().map(Difference::Effect)));
+        tries.sort_by(|x, y| y.0.total_cmp(&x.0));
+        let mut tries: Vec<Difference> = tries.into_iter().take(FITTED).map(|t| t.1).collect();
+        if open.contains(&Quantity::Delay) {
+            let delay = Quantity::Delay.value(&system);
+            tries.extend(DELAYS.map(|more| Difference::Quantity(Quantity::Delay, delay + more)));
+        }
+        let fits =
+            tries.into_iter().map(|d| self.fit(&[&now.differences[..], &[d]].concat(), Effort::SEARCH));
+        let best = fits.min_by(|x, y| self.worth(x).total_cmp(&self.worth(y)))?;
+        let explained = Sensitivities::deviance(self.base, self.stretches, self.criterion) - now.deviance;
+        let gained = now.deviance - best.deviance;
+        (self.worth(&best) < self.worth(now) && gained > LEAST_SHARE * explained).then_some(best)
+    }
+
+    fn without_the_needless(&self, mut now: Selected) -> Selected {
+        loop {
+            let fewer = (0..now.differences.len()).map(|k| {
+                let mut differences = now.differences.clone();
+                differences.remove(k);
+                self.fit(&differences, Effort::SEARCH)
+            });
+            match fewer.min_by(|x, y| self.worth(x).total_cmp(&self.worth(y))) {
+                Some(best) if self.worth(&best) <= self.worth(&now) => now = best,
+                _ => return now,
+            }
+        }
+    }
+}
+
+/// What may have another value in the machine: the base's own quantities, and the parameters of its effects.
+pub(super) fn quantities(base: &System) -> impl Iterator<Item = Quantity> + '_ {
+    Quantity::all(base).into_iter().chain((0..base.terms.len()).flat_map(|k| of_term(base, k)))
+}

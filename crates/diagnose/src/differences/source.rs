@@ -1,0 +1,57 @@
+//! A source that a machine is compared with.
+
+use super::surrogate::{bare, surrogate};
+use switchback_identify::free::FreeError;
+use switchback_identify::record::{Criterion, Stretch};
+use switchback_model::Record;
+use switchback_model::system::System;
+
+/// What a machine is compared with.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Source {
+    /// The prediction of a simulator on each of the machine's records.
+    Predictions,
+    /// A model.
+    Model(System),
+    /// Records of another machine, or of the same on another day.
+    Records(Vec<Record>),
+}
+
+/// The source as a system, and the records from which that was identified.
+pub(super) struct Identified {
+    pub(super) system: System,
+    pub(super) records: Vec<Stretch>,
+    /// Whether its predictions on the machine's records are known.
+    pub(super) is_carried: bool,
+}
+
+impl Source {
+    /// The system that stands for the source. `predicted` are the machine's inputs with the source's predictions, `noise` the standard deviation of the
+    /// machine's noise in units of these.
+    pub(super) fn identified(
+        &self,
+        predicted: &[Record],
+        noise: f64,
+    ) -> Result<Option<Identified>, FreeError> {
+        let stretches =
+            |records: &[Record]| Stretch::all(&records.iter().map(|r| (r.v(), r.y())).collect::<Vec<_>>());
+        Ok(match self {
+            Self::Predictions => surrogate(&predicted.iter().collect::<Vec<_>>(), noise)?
+                .map(|system| Identified { system, records: stretches(predicted), is_carried: true }),
+            Self::Model(system) => {
+                Some(Identified { system: system.clone(), records: Vec::new(), is_carried: false })
+            }
+            Self::Records(records) => {
+                let own: Vec<&Record> = records.iter().collect();
+                let records = stretches(records);
+                let Some(first) = bare(&own)? else { return Ok(None) };
+                let errors = records
+                    .iter()
+                    .map(|s| s.simulate(&first).iter().zip(&s.y).map(|(run, y)| y - run).collect())
+                    .collect::<Vec<Vec<f64>>>();
+                let noise = Criterion::of(&errors).sd;
+                surrogate(&own, noise)?.map(|system| Identified { system, records, is_carried: false })
+            }
+        })
+    }
+}

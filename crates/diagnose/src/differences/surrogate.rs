@@ -1,0 +1,301 @@
+//! A system in place of a source of which only predictions are known.
+
+use nalgebra::{DMatrix, DVector};
+use rand::{RngExt, SeedableRng};
+use rand_chacha::ChaCha8Rng;
+use rand_distr::StandardNormal;
+use switchback_identify::free::{FreeError, InputMap, Settings, identify};
+use switchback_identify::record::{Criterion, Effort, Sensitivities, Stretch, bare_system, fit};
+use switchback_model::record::Record;
+use switchback_model::reversal::{ReversalRule, Timing};
+use switchback_model::system::{LAWS, Quantity, Scale, System, Term};
+
+/// Square of a misfit over that of the machine's noise that matters to no difference: the carrier has it on both sides.
+const SMALL_MISFIT: f64 = 0.02;
+/// Most effects that a surrogate may have.
+const MOST_EFFECTS: usize = 3;
+/// Share of the misfit that must go for more detail to be worth having.
+const LEAST_GAIN: f64 = 0.8;
+/// Candidates that are fitted, of those looked at.
+const FITTED: usize = 4;
+
+/// The free numbers of a system: borders, linear part, the parameters of its terms.
+pub(super) fn coordinates(system: &System) -> Vec<Quantity> {
+    let knots = (0..system.borders.count()).map(Quantity::Knot);
+    let coefficients = (0..system.linear.coefficients()).map(Quantity::Coefficient);
+    knots.chain(coefficients).chain((0..system.terms.len()).flat_map(|k| of_term(system, k))).collect()
+}
+
+/// The free parameters of a term.
+pub(super) fn of_term(system: &System, term: usize) -> Vec<Quantity> {
+    let parameters = system.terms[term].law.parameters().iter().enumerate();
+    parameters.filter(|(_, p)| p.free).map(|(k, _)| Quantity::Value(term, k)).collect()
+}
+
+/// The identified system without effects.
+pub(super) fn bare(records: &[&Record]) -> Result<Option<System>, FreeError> {
+    let settings = Settings {
+        whiten: false,
+        undersmooth: false,
+        input_noise: false,
+        ..Settings::new(InputMap::Borders)
+    };
+    Ok(bare_system(&identify(records, &settings)?.model))
+}
+
+/// Everything that fits of a surrogate are compared by.
+struct Search<'a> {
+    stretches: &'a [Stretch],
+    criterion: Criterion,
+    scale: Scale,
+    samples: usize,
+}
+
+/// A system that runs as these records do, effects among it where the borders and a linear part are not enough.
+///
+/// `noise` is the standard deviation below which a misfit does not count: that of the machine's noise. The structure is identified from the records with such
+/// noise added, so that it has no more detail than the machine's records could show; all numbers are then fitted to the records themselves. An effect is taken where
+/// its gain exceeds the extended BIC's price of its parameters, and what an effect makes needless, a pole or another effect, is dropped.
+pub(super) fn surrogate(records: &[&Record], noise: f64) -> Result<Option<System>, FreeError> {
+    let noisy: Vec<Record> = records.iter().enumerate().map(|(k, r)| with_noise(r, noise, k)).collect();
+    let Some(mut system) = bare(&noisy.iter().collect::<Vec<_>>())? else { return Ok(None) };
+    let pairs: Vec<(&[f64], &[f64])> = records.iter().map(|r| (r.v(), r.y())).collect();
+    let stretches = Stretch::all(&pairs);
+    let samples = stretches.iter().map(|s| s.v.len()).sum();
+    let criterion = Criterion { filter: Vec::new(), sd: noise };
+    let search = Search { stretches: &stretches, criterion, scale: Scale::of(&system, &pairs), samples };
+    // An effect may have passed for a delay.
+    system.linear = system.linear.widened();
+    let starts = [retimed(&system), system].map(|start| search.fit(&start, Effort::FINAL));
+    let [one, other] = starts;
+    let (mut system, mut deviance) = if one.1 < other.1 { one } else { other };
+    if deviance < SMALL_MISFIT * samples as f64 {
+        (system, deviance) = search.without_the_needless(system, deviance);
+    }
+    for _ in 0..MOST_EFFECTS {
+        if deviance < SMALL_MISFIT * samples as f64 {
+            break;
+        }
+        let now = coordinates(&system).len();
+        let tried = search.larger(&system).into_iter().map(|start| {
+            let (with, deviance) = search.fit(&start, Effort::SEARCH);
+            let more = coordinates(&with).len().saturating_sub(now);
+            (deviance + price(samples, more), with, deviance)
+        });
+        let Some((worth, best, least)) = tried.min_by(|x, y| x.0.total_cmp(&y.0)) else { break };
+        if worth > deviance || least > LEAST_GAIN * deviance {
+            break;
+        }
+        (system, deviance) = search.fit(&best, Effort::FINAL);
+        (system, deviance) = search.without_the_needless(system, deviance);
+    }
+    Ok(Some(system))
+}
+
+/// The record with white noise on its output, of a seed of its own.
+fn with_noise(record: &Record, sd: f64, number: usize) -> Record {
+    let mut rng = ChaCha8Rng::seed_from_u64(number as u64);
+    let y = record.y().iter().map(|y| y + sd * rng.sample::<f64, _>(StandardNormal)).collect();
+    Record::new(record.v().to_vec(), y).expect("finite values of equal number")
+}
+
+impl Search<'_> {
+    fn fit(&self, system: &System, effort: Effort) -> (System, f64) {
+        fit(system, &coordinates(system), self.stretches, (&self.criterion, &self.scale), effort)
+    }
+
+    /// Without the terms and poles that cost more than they explain.
+    fn without_the_needless(&self, mut system: System, mut deviance: f64) -> (System, f64) {
+        loop {
+            let fewer = smaller(&system).into_iter().map(|(start, saved)| {
+                let (system, deviance) = self.fit(&start, Effort::SEARCH);
+                (deviance - price(self.samples, saved), system, deviance)
+            });
+            match fewer.min_by(|x, y| x.0.total_cmp(&y.0)) {
+                Some((worth, ..)) if worth >= deviance => return (system, deviance),
+                Some((_, best, least)) => (system, deviance) = (best, least),
+                None => return (system, deviance),
+            }
+        }
+    }
+
+    /// The system with one effect more, with one pole more, or with borders on twice as many knots; each with reversals at samples and between them.
+    fn larger(&self, system: &System) -> Vec<System> {
+        let (low, high) = system.borders.range();
+        let knots = system.borders.count() as f64 / 2.0;
+        let borders = system.borders.refined(0.5 * (high - low) / (knots - 1.0).max(1.0));
+        let with = |term| {
+            let mut with = system.clone();
+            with.terms.push(term);
+            with
+        };
+        let effects = self.candidates(system).into_iter().map(with);
+        let linear = system.linear.larger().into_iter().map(|linear| System { linear, ..system.clone() });
+        let larger: Vec<System> =
+            effects.chain(linear).chain([System { borders, ..system.clone() }]).collect();
+        let retimed: Vec<System> = larger.iter().chain([system]).map(retimed).collect();
+        [larger, retimed].concat()
+    }
+
+    /// The laws whose change of the run explains most of the error, beside the coordinates of the system: the best start of each, the best laws first.
+    fn candidates(&self, system: &System) -> Vec<Term> {
+        // A further pole belongs to the linear part.
+        let mut starts = starts(&self.scale, &system.terms);
+        starts.retain(|term| term.law.effect() != "extra_pole");
+        let context = (&self.criterion, &self.scale);
+        let scores = scores(system, &coordinates(system), &starts, self.stretches, context);
+        let mut scored: Vec<(f64, Term)> = Vec::new();
+        for (term, score) in starts.into_iter().zip(scores) {
+            let name = |t: &Term| (t.law.effect(), t.law.name());
+            match scored.iter_mut().find(|(_, t)| name(t) == name(&term)) {
+                Some(best) if best.0 < score => *best = (score, term),
+                Some(_) => {}
+                None => scored.push((score, term)),
+            }
+        }
+        scored.sort_by(|x, y| y.0.total_cmp(&x.0));
+        scored.into_iter().take(FITTED).map(|(_, term)| term).collect()
+    }
+}
+
+/// The same with reversals that take effect at samples instead of between them, or conversely: an effect before the operator changes which of both is right.
+fn retimed(system: &System) -> System {
+    let timing = match system.rule.timing {
+        Timing::BetweenSamples => Timing::AtSamples,
+        Timing::AtSamples | Timing::AtConfirmation => Timing::BetweenSamples,
+    };
+    System { rule: ReversalRule { timing, ..system.rule }, ..system.clone() }
+}
+
+/// The system without one term, or with a smaller linear part; and the parameters that this saves.
+fn smaller(system: &System) -> Vec<(System, usize)> {
+    let mut all = Vec::new();
+    for k in 0..system.terms.len() {
+        let mut without = system.clone();
+        let term = without.terms.remove(k);
+        all.push((without, term.values.len()));
+    }
+    for fewer in system.linear.smaller() {
+        let saved = system.linear.coefficients() - fewer.coefficients();
+        all.push((System { linear: fewer, ..system.clone() }, saved));
+    }
+    all
+}
+
+/// What parameters must gain in `Σρ` to be taken: the extended BIC with `γ = 1`, of so many laws.
+///
+/// J. Chen, Z. Chen, Biometrika 95 (2008), doi 10.1093/biomet/asn034.
+pub(super) fn price(samples: usize, parameters: usize) -> f64 {
+    parameters as f64 * ((samples.max(2) as f64).ln() + 2.0 * (LAWS.len() as f64).ln())
+}
+
+/// Every start of every law of an effect that is not there yet.
+pub(super) fn starts(scale: &Scale, present: &[Term]) -> Vec<Term> {
+    let absent = LAWS.iter().filter(|law| present.iter().all(|t| t.law.effect() != law.effect()));
+    absent.flat_map(|&law| law.starts(scale).into_iter().map(move |values| Term { law, values })).collect()
+}
+
+/// Eigenvalue of the scaled information below which a direction is none that the records show.
+const LEAST_EIGENVALUE: f64 = 1e-7;
+
+/// Standard errors of quantities of a surrogate, as if its misfit were noise of the same colour: by how much another structure of the same merit might move them.
+pub(super) fn own_errors(
+    system: &System,
+    records: &[Stretch],
+    scale: &Scale,
+    quantities: &[Quantity],
+) -> Vec<f64> {
+    if records.is_empty() {
+        // The system is the source itself.
+        return vec![0.0; quantities.len()];
+    }
+    let errors: Vec<Vec<f64>> = records
+        .iter()
+        .map(|s| s.simulate(system).iter().zip(&s.y).map(|(run, y)| y - run).collect())
+        .collect();
+    let criterion = Criterion::of(&errors);
+    let coordinates = coordinates(system);
+    let local = Sensitivities::of(system, &coordinates, records, (&criterion, scale));
+    let count = coordinates.len();
+    let sizes = DVector::from_fn(count, |i, _| local.information[(i, i)].sqrt().max(f64::MIN_POSITIVE));
+    let scaled = DMatrix::from_fn(count, count, |i, j| local.information[(i, j)] / (sizes[i] * sizes[j]));
+    let eigen = scaled.symmetric_eigen();
+    // A direction that changes no run has no error: whatever lies along it is the same system.
+    let solve = |x: &DVector<f64>| {
+        let parts = (0..count).filter(|&k| eigen.eigenvalues[k] > LEAST_EIGENVALUE).map(|k| {
+            let direction = eigen.eigenvectors.column(k);
+            direction * (direction.dot(x) / eigen.eigenvalues[k])
+        });
+        parts.fold(DVector::zeros(count), |sum, part| sum + part)
+    };
+    let blocks: Vec<DVector<f64>> =
+        local.blocks.iter().map(|b| DVector::from_fn(count, |i, _| b[i] / sizes[i])).collect();
+    let of = |quantity: &Quantity| {
+        let value = quantity.value(system);
+        let slope = |c: &Quantity| {
+            let step = c.step(system, scale);
+            (quantity.value(&c.set(system, c.value(system) + step)) - value) / step
+        };
+        let gradient = DVector::from_fn(count, |i, _| slope(&coordinates[i]) / sizes[i]);
+        let direction = solve(&gradient);
+        let scatter: f64 = blocks.iter().map(|b| b.dot(&direction).powi(2)).sum();
+        gradient.dot(&direction).max(scatter).sqrt()
+    };
+    quantities.iter().map(of).collect()
+}
+
+/// What each term would gain in `Σρ` once its change of the run, by finite difference, is scaled freely, beside the given quantities.
+pub(super) fn scores(
+    system: &System,
+    base: &[Quantity],
+    terms: &[Term],
+    stretches: &[Stretch],
+    (criterion, scale): (&Criterion, &Scale),
+) -> Vec<f64> {
+    let with = |term: &Term| {
+        let mut with = system.clone();
+        with.terms.push(term.clone());
+        with
+    };
+    let added: Vec<System> = terms.iter().map(with).collect();
+    let moved: Vec<(System, f64)> = base
+        .iter()
+        .map(|q| {
+            let step = q.step(system, scale);
+            (q.set(system, q.value(system) + step), step)
+        })
+        .collect();
+    let columns = stretches.iter().map(|stretch| {
+        let run = stretch.simulate(system);
+        let difference = |(other, step): (&System, f64)| -> Vec<f64> {
+            stretch.simulate(other).iter().zip(&run).map(|(o, r)| (o - r) / step).collect()
+        };
+        let base = moved.iter().map(|(other, step)| difference((other, *step)));
+        base.chain(added.iter().map(|other| difference((other, 1.0)))).collect()
+    });
+    let all = Sensitivities::with_columns(system, columns.collect(), stretches, criterion);
+    gains(&all, base.len())
+}
+
+/// What each column after the first `base` would gain beside those.
+pub(super) fn gains(all: &Sensitivities, base: usize) -> Vec<f64> {
+    let count = all.gradient.len();
+    let scale = DVector::from_fn(count, |i, _| all.information[(i, i)].sqrt().max(f64::MIN_POSITIVE));
+    let scaled = |i: usize, j: usize| all.information[(i, j)] / (scale[i] * scale[j]);
+    let mut h = DMatrix::from_fn(base, base, scaled);
+    for i in 0..base {
+        h[(i, i)] += 1e-10;
+    }
+    let gradient = |i: usize| all.gradient[i] / scale[i];
+    let Some(factor) = h.cholesky() else { return vec![0.0; count - base] };
+    let explained = factor.solve(&DVector::from_fn(base, |i, _| gradient(i)));
+    (base..count)
+        .map(|k| {
+            let cross = DVector::from_fn(base, |i, _| scaled(i, k));
+            let left = 1.0 - cross.dot(&factor.solve(&cross));
+            let pull = gradient(k) - cross.dot(&explained);
+            // A change that the base makes as well has nothing of its own.
+            if left > 1e-6 { pull * pull / left } else { 0.0 }
+        })
+        .collect()
+}
