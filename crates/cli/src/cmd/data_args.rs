@@ -73,6 +73,11 @@ impl DataArgs {
         Ok((request, survey))
     }
 
+    /// The same columns, clock and rates for other files; nothing of these is held out.
+    pub(crate) fn of(&self, files: &[PathBuf]) -> Self {
+        Self { data: files.to_vec(), holdout: None, ..self.clone() }
+    }
+
     fn request(&self) -> Request {
         let Self { data, input, output, time, sample_time, rate, holdout, resample } = self.clone();
         let columns = ColumnNames { time, input, output };

@@ -32,6 +32,11 @@ pub(crate) struct Args {
     #[arg(long, value_name = "MODEL.json")]
     model: Option<PathBuf>,
 
+    /// What differs from these records: of another day, another unit, another bench. Files of measurements, read as the others are, or one rig
+    /// file; may be given more than once.
+    #[arg(long, value_name = "RECORDS", conflicts_with_all = ["model", "fmu", "power"])]
+    against: Vec<PathBuf>,
+
     /// Leave this effect out of the candidates, where you know that the rig has none of it; may be given more than once.
     #[arg(long, value_name = "EFFECT", value_parser = effect(), hide_possible_values = true)]
     without: Vec<Effect>,
@@ -64,8 +69,8 @@ pub(crate) struct Args {
     #[arg(long, value_name = "SECONDS", default_value = "60", value_parser = patience, requires = "fmu", hide_default_value = true)]
     patience: Duration,
 
-    /// What must come out, e.g. "gap < 2 %" or "cause none", in the words of the keys of --json; may be given more than once. Exit code 1
-    /// where it does not, after everything is written.
+    /// What must come out, e.g. "gap < 2 %" or "cause none", in the words of the keys of --json, or of a simulator "delay = 0" or "friction
+    /// within 5 %"; may be given more than once. Exit code 1 where it does not, after everything is written.
     #[arg(long, value_name = "EXPECTATION", value_parser = Expectation::parse)]
     expect: Vec<Expectation>,
 
@@ -93,10 +98,11 @@ pub(crate) struct Args {
 }
 
 /// What the folder gets.
-const FILES: [&str; 11] = [
+const FILES: [&str; 12] = [
     "gap.json",
     "nominal.json",
     "augmented.json",
+    "aligned.json",
     "series.csv",
     "verdict.txt",
     "where.svg",
@@ -119,7 +125,11 @@ pub(crate) fn run(args: &Args) -> CommandResult {
     let folder = args.output.force.claim_if_asked(args.out.as_deref(), &FILES, &data.inputs(&loaded.plan))?;
     let (rig, mut notes) = (simulated(args, loaded.rig)?, loaded.reported.warnings);
     notes.extend(args.fmu.as_ref().map(|fmu| format!("the predictions are those of {}", fmu.display())));
-    let subject = Subject::choose(rig, args.model.as_deref())?.noting(notes);
+    let subject = match args.against.is_empty() {
+        true => Subject::choose(rig, args.model.as_deref())?,
+        false => Subject::against(rig, &args.data.of(&args.against).load("gap", args.output.quiet)?.1.rig)?,
+    };
+    let subject = subject.noting(notes);
     let watch = Watch::new(args.output.quiet);
     let settings = request(args).settings();
     let report = args.threads.install(|| examine_watched(subject, &settings, &watch))?;

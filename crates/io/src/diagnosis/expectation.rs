@@ -1,6 +1,6 @@
 //! `--expect "gap < 2 %"`: what a diagnosis must say.
 
-use super::Report;
+use super::{Report, ReportedDifference, Units, digits};
 use std::fmt;
 use switchback_diagnose::{Diagnosis, Effect, Figure, Stage, Status};
 
@@ -12,8 +12,18 @@ pub struct Expectation {
     what: What,
 }
 
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 enum What {
+    /// A value of the source is this one, but for the error of the comparison.
+    Value {
+        what: String,
+        value: f64,
+    },
+    /// A value of the source is that of the machine, but for a share of it.
+    Within {
+        what: String,
+        share: f64,
+    },
     /// A figure below or above a bound.
     Bound {
         figure: usize,
@@ -64,9 +74,6 @@ const FIGURES: [(&str, Reader); 8] = [
     ("probability_unexplained", |d| Some(d.probability_unexplained)),
 ];
 
-const STATUSES: [Status; 6] =
-    [Status::None, Status::Refit, Status::Named, Status::Class, Status::Ambiguous, Status::Unexplained];
-
 const STAGES: [Stage; 5] =
     [Stage::Input, Stage::Operator, Stage::Dynamics, Stage::Disturbance, Stage::Sensor];
 
@@ -80,7 +87,7 @@ pub struct Checked {
 }
 
 impl Expectation {
-    /// Parses `gap < 2 %`, `cause none`, `cause backlash`, `verdict.status named` or `verdict.stage operator`.
+    /// Parses `gap < 2 %`, `cause none`, `cause backlash`, `verdict.status named`, `verdict.stage operator`, `delay = 0` or `friction within 5 %`.
     ///
     /// ```
     /// use switchback_io::diagnosis::Expectation;
@@ -92,6 +99,9 @@ impl Expectation {
     /// # Errors
     /// The words that are allowed.
     pub fn parse(text: &str) -> Result<Self, String> {
+        if let Some(what) = parse_difference(text) {
+            return Ok(Self { text: text.split_whitespace().collect::<Vec<_>>().join(" "), what: what? });
+        }
         let bound = Sign::ALL.iter().find_map(|(mark, sign)| Some((text.split_once(mark)?, *sign)));
         let what = match bound {
             Some(((figure, bound), sign)) => parse_bound(figure.trim(), sign, bound.trim())?,
@@ -104,8 +114,10 @@ impl Expectation {
     pub fn check(&self, report: &Report) -> Checked {
         let diagnosis = &report.diagnosis;
         let verdict = &diagnosis.verdict;
-        let (holds, found) = match self.what {
-            What::Bound { figure, sign, bound, in_percent } => match FIGURES[figure].1(diagnosis) {
+        let (holds, found) = match &self.what {
+            What::Value { what, value } => value_is(report, what, *value),
+            What::Within { what, share } => is_within(report, what, *share),
+            &What::Bound { figure, sign, bound, in_percent } => match FIGURES[figure].1(diagnosis) {
                 Some(found) if in_percent => {
                     (sign.holds(100.0 * found, bound), format!("{} %", super::digits(100.0 * found, 3)))
                 }
@@ -113,10 +125,10 @@ impl Expectation {
                 None => (false, "nothing, for there is no gap to close".to_owned()),
             },
             What::Cause(None) => (verdict.status == Status::None, cause(report)),
-            What::Cause(Some(effect)) => (verdict.effects == [effect], cause(report)),
-            What::Status(status) => (verdict.status == status, verdict.status.name().to_owned()),
+            What::Cause(Some(effect)) => (verdict.effects == [*effect], cause(report)),
+            What::Status(status) => (verdict.status == *status, verdict.status.name().to_owned()),
             What::Stage(stage) => {
-                (verdict.stage == Some(stage), verdict.stage.map_or("none", Stage::name).to_owned())
+                (verdict.stage == Some(*stage), verdict.stage.map_or("none", Stage::name).to_owned())
             }
         };
         let so = if holds { "as expected" } else { "not as expected" };
@@ -128,6 +140,66 @@ impl fmt::Display for Expectation {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(&self.text)
     }
+}
+
+/// Standard errors within which two values are the same: the two-sided level is 5 %.
+const SAME: f64 = 1.96;
+
+/// The row of a quantity; in words where there is none.
+fn row(report: &Report, what: &str) -> Result<ReportedDifference, String> {
+    let Some(differences) = &report.diagnosis.differences else {
+        return Err("nothing: the machine was compared with no model, simulator or records".to_owned());
+    };
+    let found = differences.rows.iter().find(|row| row.what == what);
+    found.map(|row| ReportedDifference::of(row, &Units::of(&report.rig))).ok_or_else(|| {
+        let names: Vec<&str> = differences.rows.iter().map(|row| row.what.as_str()).collect();
+        format!("no `{what}` among {}", names.join(", "))
+    })
+}
+
+fn found(row: &ReportedDifference) -> String {
+    let text = format!(
+        "{} against {} ± {} {}",
+        digits(row.in_a, 4),
+        digits(row.in_b, 4),
+        digits(row.se, 2),
+        row.unit
+    );
+    text.trim_end().to_owned()
+}
+
+fn value_is(report: &Report, what: &str, value: f64) -> (bool, String) {
+    match row(report, what) {
+        Ok(row) => ((row.in_a - value).abs() <= SAME * row.se, found(&row)),
+        Err(words) => (false, words),
+    }
+}
+
+fn is_within(report: &Report, what: &str, share: f64) -> (bool, String) {
+    match row(report, what) {
+        Ok(row) => ((row.in_a - row.in_b).abs() <= share * row.in_b.abs(), found(&row)),
+        Err(words) => (false, words),
+    }
+}
+
+/// `delay = 0` or `friction within 5 %`; none where a text is of neither form.
+fn parse_difference(text: &str) -> Option<Result<What, String>> {
+    let number = |text: &str| {
+        let number = text.trim().parse::<f64>().ok().filter(|x| x.is_finite());
+        number.ok_or_else(|| {
+            format!("`{}` is no number; give e.g. `delay = 0` or `friction within 5 %`", text.trim())
+        })
+    };
+    if let Some((what, share)) = text.split_once(" within ") {
+        let what = what.trim().to_owned();
+        let share = share.trim();
+        return Some(match share.strip_suffix('%') {
+            Some(percent) => number(percent).map(|share| What::Within { what, share: share / 100.0 }),
+            None => number(share).map(|share| What::Within { what, share }),
+        });
+    }
+    let (what, value) = text.split_once('=').filter(|_| !text.contains(['<', '>']))?;
+    Some(number(value).map(|value| What::Value { what: what.trim().to_owned(), value }))
 }
 
 /// The cause in a word.
@@ -166,8 +238,8 @@ fn parse_word(text: &str) -> Result<What, String> {
             allowed(std::iter::once("none").chain(Effect::ALL.iter().map(|effect| effect.name())).collect())
         }),
         "verdict.status" => {
-            let status = STATUSES.into_iter().find(|status| status.name() == word).map(What::Status);
-            status.ok_or_else(|| allowed(STATUSES.iter().map(|status| status.name()).collect()))
+            let status = Status::ALL.into_iter().find(|status| status.name() == word).map(What::Status);
+            status.ok_or_else(|| allowed(Status::ALL.iter().map(|status| status.name()).collect()))
         }
         "verdict.stage" => {
             let stage = STAGES.into_iter().find(|stage| stage.name() == word).map(What::Stage);
@@ -198,6 +270,8 @@ mod tests {
             expect("gap.closure >= 0.9"),
             What::Bound { figure: 3, sign: Sign::AtLeast, bound: 0.9, in_percent: false }
         );
+        assert_eq!(expect("delay = 0"), What::Value { what: "delay".to_owned(), value: 0.0 });
+        assert_eq!(expect("friction within 5 %"), What::Within { what: "friction".to_owned(), share: 0.05 });
         assert_eq!(expect("cause none"), What::Cause(None));
         assert_eq!(expect("cause  backlash"), What::Cause(Some(Effect::Backlash)));
         assert_eq!(expect("verdict.status unexplained"), What::Status(Status::Unexplained));
@@ -209,6 +283,8 @@ mod tests {
         for (text, word) in [
             ("gab < 2 %", "gap.before"),
             ("gap < two", "is no number"),
+            ("delay = zero", "is no number"),
+            ("friction within five", "is no number"),
             ("gap < nan", "is no number"),
             ("gap", "cause none"),
             ("cause backlsh", "backlash"),

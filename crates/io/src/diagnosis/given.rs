@@ -79,6 +79,7 @@ fn of_file(
     }
     let plain = match &model.system {
         System::Switched(model) => model.is_plain().then(|| model.system()),
+        System::Machine(_) => None,
         System::Points(points) => return of_page(rig, file, points.estimate(), notes),
         System::Curves(curves) => curves.plain(),
     };

@@ -3,6 +3,7 @@
 //! The diagnosis itself is the crate `switchback_diagnose`; here are files, threads and units.
 
 mod choice;
+mod difference;
 mod error;
 pub mod examine;
 mod expectation;
@@ -16,6 +17,7 @@ mod request;
 mod subject;
 mod units;
 
+pub use difference::ReportedDifference;
 pub use error::DiagnosisError;
 pub use examine::Report;
 pub use examine::examine;

@@ -1,5 +1,6 @@
 //! Whose model meets the records.
 
+use crate::identification::unit;
 use crate::model::{self, ModelError, UnitError};
 use miette::Diagnostic;
 use schemars::JsonSchema;
@@ -19,6 +20,8 @@ pub enum Source {
     /// Another simulator's predictions, the columns `y_sim`.
     #[schemars(rename = "y_sim")]
     Predicted,
+    /// Records of another machine, or of the same on another day.
+    Against,
 }
 
 impl Source {
@@ -28,6 +31,7 @@ impl Source {
             Self::Identified => "identified",
             Self::Given => "given",
             Self::Predicted => "y_sim",
+            Self::Against => "against",
         }
     }
 
@@ -36,6 +40,7 @@ impl Source {
         match self {
             Self::Identified => "nominal",
             Self::Given | Self::Predicted => self.name(),
+            Self::Against => "other records",
         }
     }
 
@@ -45,6 +50,17 @@ impl Source {
             Self::Identified => "nominal model",
             Self::Given => "given model",
             Self::Predicted => self.name(),
+            Self::Against => "model of the other records",
+        }
+    }
+
+    /// The same in a sentence.
+    pub fn in_words(self) -> &'static str {
+        match self {
+            Self::Identified => "the model identified from the fit records",
+            Self::Given => "the given model",
+            Self::Predicted => "y_sim",
+            Self::Against => "the model of the other records",
         }
     }
 }
@@ -104,6 +120,28 @@ pub enum SubjectError {
         /// The record.
         record: String,
     },
+    /// The records compared with have another sample time.
+    #[error("the records compared with have a sample time of {other} s, those of the machine {rig} s")]
+    #[diagnostic(help("resample one of both, e.g. with `--rate`, so that both have the same sample time"))]
+    AgainstSampleTime {
+        /// Sample time of the records compared with.
+        other: f64,
+        /// Sample time of the machine's.
+        rig: f64,
+    },
+    /// The records compared with have another unit.
+    #[error(
+        "the {signal} is in [{other}] in the records compared with, but in [{rig}] in those of the machine"
+    )]
+    #[diagnostic(help("convert one of both, or correct the unit in its header or manifest"))]
+    AgainstUnit {
+        /// Input or output.
+        signal: &'static str,
+        /// Unit in the records compared with.
+        other: String,
+        /// Unit in the machine's.
+        rig: String,
+    },
     /// Some records have predictions and some that must have them do not.
     #[error("the record {record} has no column `y_sim`, but {other} has one")]
     #[diagnostic(help(
@@ -117,7 +155,37 @@ pub enum SubjectError {
     },
 }
 
+/// Relative difference of two sample times that is none.
+const SAME_TIME: f64 = 1e-3;
+
 impl Subject {
+    /// A machine and the records of another, or of the same on another day. A `y_sim` in either is left aside.
+    ///
+    /// # Errors
+    /// [`SubjectError`] if the sample times or the units that both name differ.
+    pub fn against(mut rig: Rig, other: &Rig) -> Result<Self, SubjectError> {
+        if ((other.sample_time - rig.sample_time) / rig.sample_time).abs() > SAME_TIME {
+            return Err(SubjectError::AgainstSampleTime { other: other.sample_time, rig: rig.sample_time });
+        }
+        let labels = [
+            ("input", &rig.input_label, &other.input_label),
+            ("output", &rig.output_label, &other.output_label),
+        ];
+        for (signal, here, there) in labels {
+            let (here, there) = (unit(here), unit(there));
+            if !here.is_empty() && !there.is_empty() && here != there {
+                return Err(SubjectError::AgainstUnit {
+                    signal,
+                    other: there.to_owned(),
+                    rig: here.to_owned(),
+                });
+            }
+        }
+        rig.records.iter_mut().for_each(|record| record.predicted = None);
+        let records = other.records.iter().map(|record| record.record.clone()).collect();
+        Ok(Self { rig, model: Model::Against(records), source: Source::Against, notes: Vec::new() })
+    }
+
     /// The same, with more that the reader of the report must know.
     #[must_use]
     pub fn noting(mut self, notes: Vec<String>) -> Self {

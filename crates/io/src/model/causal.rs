@@ -57,6 +57,9 @@ impl ModelFile {
                     false => Err(NotCausal::because(reasons.join("; "))),
                 }
             }
+            System::Machine(_) => Err(NotCausal::because(
+                "a source with the values of a machine has no form that runs sample by sample yet".to_owned(),
+            )),
             System::Points(points) => of_points(points),
         }
     }
@@ -65,7 +68,7 @@ impl ModelFile {
     pub(crate) fn elsewhere(&self) -> Vec<String> {
         match &self.system {
             System::Switched(model) => model.elsewhere(),
-            System::Curves(_) | System::Points(_) => Vec::new(),
+            System::Curves(_) | System::Machine(_) | System::Points(_) => Vec::new(),
         }
     }
 }

@@ -4,6 +4,7 @@ use super::{Curves, Points, System};
 use schemars::JsonSchema;
 use serde::Serialize;
 use switchback_identify::statistics::propagated;
+use switchback_model::hysteresis::Branch;
 
 /// `A(q⁻¹) y(t) = Σ bᵢ u(t−delay−i)`, `u` on two borders given by points.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
@@ -31,6 +32,13 @@ impl Described {
                 Self { order: a.len(), delay: -model.lead(), a, b, descending, ascending }
             }
             System::Curves(curves) => Self::of_curves(curves),
+            System::Machine(machine) => {
+                let system = machine.system();
+                let (a, b) = (system.linear.a().to_vec(), system.linear.b());
+                let points = |branch| system.borders.points(branch).collect();
+                let [descending, ascending] = [Branch::Descending, Branch::Ascending].map(points);
+                Self { order: a.len(), delay: system.linear.lag() - 1, a, b, descending, ascending }
+            }
             System::Points(points) => Self::of_points(points),
         }
     }
@@ -50,7 +58,7 @@ impl Described {
     /// The same with its parameters moved by a step, where their covariance is known; a model of `gap` does not say.
     fn moved(system: &System, step: &[f64]) -> Self {
         match system {
-            System::Switched(_) => Self::of(system),
+            System::Switched(_) | System::Machine(_) => Self::of(system),
             System::Curves(curves) => Self::of_curves(&curves.moved(step)),
             System::Points(points) => {
                 let (a, rest) = step.split_at(points.a().len());
@@ -84,7 +92,7 @@ impl System {
             of(&a, &b)
         };
         let rows = match self {
-            Self::Switched(_) => None,
+            Self::Switched(_) | Self::Machine(_) => None,
             Self::Curves(curves) => curves.covariance(),
             Self::Points(points) => points.covariance(),
         };

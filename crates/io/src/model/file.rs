@@ -72,14 +72,14 @@ pub struct Parameter {
 
 impl Header {
     /// What `part` may be.
-    pub const PARTS: [&str; 3] = ["identified", "nominal", "augmented"];
+    pub const PARTS: [&str; 4] = ["identified", "nominal", "augmented", "aligned"];
 }
 
 /// A model that runs anywhere: `model.json`, `nominal.json`, `augmented.json`.
 #[derive(Serialize, JsonSchema)]
 struct Written<'a> {
     /// Form of `model`.
-    #[schemars(extend("enum" = ["switched", "curves", "points"]))]
+    #[schemars(extend("enum" = ["switched", "curves", "machine", "points"]))]
     kind: &'a str,
     #[serde(flatten)]
     header: &'a Header,

@@ -2,7 +2,7 @@
 
 use super::file::{Added, Header, ModelFile, Parameter};
 use super::system::System;
-use super::{Domain, PortableModel};
+use super::{Domain, Machine, PortableModel};
 use crate::diagnosis::{Report, Units, reported};
 use crate::identification::{Found, Identification};
 use switchback_diagnose::{Effect, FittedParameter};
@@ -28,7 +28,16 @@ pub fn diagnosed(report: &Report) -> Vec<(&'static str, ModelFile)> {
     let nominal =
         models.nominal.as_ref().map(|model| ("nominal.json", of_gap(report, "nominal", model, &[])));
     let augmented = of_gap(report, "augmented", &models.augmented, &models.added);
-    nominal.into_iter().chain([("augmented.json", augmented)]).collect()
+    nominal.into_iter().chain([("augmented.json", augmented)]).chain(aligned(report)).collect()
+}
+
+/// The source with the values of the machine, where one was compared.
+fn aligned(report: &Report) -> Option<(&'static str, ModelFile)> {
+    let found = report.diagnosis.differences.as_ref()?;
+    let identified_on = Domain::of(&report.rig, found.aligned.rule.threshold);
+    let machine = Machine::new(found.aligned.clone(), found.noise);
+    let header = header(&report.rig, "aligned", None, identified_on);
+    Some(("aligned.json", ModelFile { header, system: System::Machine(Box::new(machine)) }))
 }
 
 fn of_gap(

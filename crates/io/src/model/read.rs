@@ -99,10 +99,11 @@ pub fn of_text(path: &Path, text: &str) -> Result<ModelFile, ModelError> {
     let file = match peek.kind.as_deref() {
         Some("switched") => joined(parse(path, text)?, |model| System::Switched(Box::new(model))),
         Some("curves") => joined(parse(path, text)?, System::Curves),
+        Some("machine") => joined(parse(path, text)?, |model| System::Machine(Box::new(model))),
         Some("points") => joined(parse(path, text)?, System::Points),
         Some(other) => {
             return Err(fail(
-                format!("`kind` is `{other}`, but a model is switched, curves or points"),
+                format!("`kind` is `{other}`, but a model is switched, curves, machine or points"),
                 MAKE_ONE,
             ));
         }

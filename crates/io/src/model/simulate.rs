@@ -26,6 +26,14 @@ impl ModelFile {
                 }
             }
             System::Curves(model) => model.run(v, y),
+            System::Machine(model) => {
+                let mut run = model.run(v, y);
+                if model.follows_clock() {
+                    run.notes
+                        .push("slow changes run over this input as they ran over the records".to_owned());
+                }
+                run
+            }
             System::Points(model) => model.run(v, y)?,
         };
         if !self.system.has_covariance() {

@@ -1,6 +1,7 @@
 //! A model that runs.
 
 use super::curves::Curves;
+use super::machine::Machine;
 use super::points::Points;
 use schemars::JsonSchema;
 use serde::Serialize;
@@ -15,6 +16,8 @@ pub enum System {
     Switched(Box<PortableModel>),
     /// Of the methods for any record: piecewise-linear curves.
     Curves(Curves),
+    /// Of a comparison: a source with the values of a machine.
+    Machine(Box<Machine>),
     /// Of the methods for pulse experiments: points of the borders.
     Points(Points),
 }
@@ -25,6 +28,7 @@ impl System {
         match self {
             Self::Switched(_) => "switched",
             Self::Curves(_) => "curves",
+            Self::Machine(_) => "machine",
             Self::Points(_) => "points",
         }
     }
@@ -34,6 +38,7 @@ impl System {
         match self {
             Self::Switched(model) => model.has_covariance(),
             Self::Curves(model) => model.covariance().is_some(),
+            Self::Machine(_) => false,
             Self::Points(model) => model.covariance().is_some(),
         }
     }

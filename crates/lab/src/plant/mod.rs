@@ -44,7 +44,7 @@ fn carrying<'f>(rig: &Rig, file: &'f ModelFile, path: &Path) -> Result<&'f Model
     }
     match &file.system {
         System::Curves(curves) => Ok(curves.model()),
-        other @ (System::Switched(_) | System::Points(_)) => {
+        other @ (System::Switched(_) | System::Machine(_) | System::Points(_)) => {
             Err(PlantError::Model { model, kind: other.kind() })
         }
     }

@@ -3,6 +3,7 @@
 use super::sentences;
 use schemars::{JsonSchema, Schema};
 use serde::{Deserialize, Serialize};
+use switchback_diagnose::differences::RowKind;
 use switchback_diagnose::fitted::{self, Shares};
 use switchback_diagnose::{
     Candidate, Cell, CellInterval, Diagnosis, Effect, ExperimentKind, Figure, FittedParameter, Horizon,
@@ -23,13 +24,16 @@ pub(crate) struct GapFile {
     pub input: String,
     /// Label and unit of the output.
     pub output: String,
-    /// What was diagnosed: `identified` from the fit records, `given`, or `y_sim`.
+    /// What was diagnosed: `identified` from the fit records, `given`, `y_sim`, or records that these were compared with (`against`).
     #[schemars(with = "Source")]
     pub model: String,
     /// The answer.
     pub verdict: Verdict,
     /// The same in sentences.
     pub in_words: Vec<String>,
+    /// Every quantity of the machine beside that of the model, simulator or records compared with it, those that differ first; empty where the model was
+    /// identified from the machine's own records.
+    pub differences: Vec<Difference>,
     /// How large the gap is, and how far it closes.
     pub gap: Gap,
     /// The map of the gap, a cell an entry.
@@ -64,7 +68,7 @@ pub(crate) struct GapFile {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct Verdict {
-    /// `none`: nothing significant; `named`: `effects` are the cause; `class`: one of `class`, which these records cannot separate; `ambiguous`: one of `class`, which `next_experiment` would separate; `refit`: identifying the model anew closes the gap; `unexplained`: a gap whose cause is none of the candidates.
+    /// `none`: nothing significant; `parameters`: values of what was compared are off, and nothing is missing in it; `named`: `effects` are the cause; `class`: one of `class`, which these records cannot separate; `ambiguous`: one of `class`, which `next_experiment` would separate; `refit`: identifying the model anew closes the gap; `unexplained`: a gap whose cause is none of the candidates.
     #[schemars(with = "Status")]
     pub status: String,
     /// The effects named; of a class its likeliest member.
@@ -90,6 +94,38 @@ pub(crate) struct Verdict {
     /// How many times larger the error is on held-out records that were taken under other conditions than the fit records.
     #[schemars(range(min = 0))]
     pub held_out_error_ratio: Option<f64>,
+}
+
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct Difference {
+    /// The quantity.
+    pub what: String,
+    /// `parameter`: both sides have it; `effect`: an effect of either side.
+    pub kind: String,
+    /// The effect whose parameter it is; null for a parameter.
+    pub effect: Option<String>,
+    /// Its value in what was compared with the machine, a delay relative to the machine's; zero for the strength of an effect that this lacks, null for its shape.
+    pub in_a: Option<f64>,
+    /// Its value in the machine.
+    #[serde(deserialize_with = "switchback_io::input::nullable::number")]
+    pub in_b: f64,
+    /// Standard error of `in_b`.
+    #[serde(deserialize_with = "switchback_io::input::nullable::number")]
+    pub se: f64,
+    /// Unit of these; empty for a pure number.
+    pub unit: String,
+    /// Probability that the values differ.
+    #[serde(deserialize_with = "switchback_io::input::nullable::number")]
+    #[schemars(range(min = 0, max = 1))]
+    pub probability: f64,
+    /// Whether they do.
+    pub differs: bool,
+    /// Share of the gap that aligning this one alone closes.
+    #[serde(deserialize_with = "switchback_io::input::nullable::number")]
+    pub closure: f64,
+    /// The attribute of a MuJoCo joint that it is, where it is one.
+    pub attribute: Option<String>,
 }
 
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -407,6 +443,7 @@ pub fn json(report: &Report) -> String {
         model: report.source.name().to_owned(),
         verdict: verdict(&diagnosis.verdict),
         in_words: sentences::verdict(report),
+        differences: differences(report),
         gap: gap(diagnosis),
         r#where: diagnosis.where_.iter().map(|cell| place(cell, &units)).collect(),
         candidates: diagnosis.candidates.iter().map(|c| hypothesis(c, &units)).collect(),
@@ -427,6 +464,27 @@ pub fn json(report: &Report) -> String {
         version: env!("CARGO_PKG_VERSION").to_owned(),
     };
     stamped(SCHEMA, &page)
+}
+
+fn differences(report: &Report) -> Vec<Difference> {
+    let Some(found) = &report.diagnosis.differences else { return Vec::new() };
+    let one = |row: switchback_io::diagnosis::ReportedDifference| Difference {
+        what: row.what,
+        kind: match row.kind {
+            RowKind::Parameter => "parameter".to_owned(),
+            RowKind::Effect => "effect".to_owned(),
+        },
+        effect: row.effect.map(str::to_owned),
+        in_a: Some(row.in_a).filter(|x| x.is_finite()),
+        in_b: row.in_b,
+        se: row.se,
+        unit: row.unit,
+        probability: row.probability,
+        differs: row.differs,
+        closure: row.closure,
+        attribute: row.attribute.map(str::to_owned),
+    };
+    super::differences::reported(report, found).into_iter().map(one).collect()
 }
 
 fn second_opinion(reported: &fitted::SecondOpinion) -> SecondOpinion {

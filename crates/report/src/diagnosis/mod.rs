@@ -1,6 +1,7 @@
 //! A diagnosis as one JSON object, in words, and as the files of its report.
 
 mod artefacts;
+mod differences;
 pub mod json;
 mod place;
 mod sentences;

@@ -25,6 +25,10 @@ pub(super) fn verdict(report: &Report) -> Vec<String> {
     if shows {
         sentences.push(place::place(report).unwrap_or_else(|| "No place stands out on the map.".to_owned()));
     }
+    if let Some(differences) = &diagnosis.differences {
+        sentences.extend(super::differences::sentences(report, differences));
+        return sentences;
+    }
     sentences.push(cause(diagnosis, &units));
     sentences.extend(uncalibrated(report));
     if diagnosis.verdict.status != Status::Refit {
@@ -46,11 +50,7 @@ fn is_exact(gap: &Gap) -> bool {
 /// How large the gap is.
 fn size(report: &Report) -> String {
     let gap = &report.diagnosis.gap;
-    let model = match report.source {
-        Source::Identified => "the model identified from the fit records",
-        Source::Given => "the given model",
-        Source::Predicted => "y_sim",
-    };
+    let model = report.source.in_words();
     let percent = |x: f64| digits(100.0 * x, 2);
     let [low, high] = gap.before.ci90;
     let held_out = judged(report);
@@ -124,7 +124,7 @@ fn cause(diagnosis: &Diagnosis, units: &Units) -> String {
             };
             format!("No gap can be resolved: {missed}.")
         }
-        Status::Refit => refit(diagnosis),
+        Status::Refit | Status::Parameters => refit(diagnosis),
         Status::None => {
             // Of a model that was identified here the errors on held-out records were tested.
             let is_tested = diagnosis.gap.identified_anew.is_none() && !is_exact(&diagnosis.gap);
@@ -213,13 +213,13 @@ fn refit(diagnosis: &Diagnosis) -> String {
 fn uncalibrated(report: &Report) -> Option<String> {
     let verdict = &report.diagnosis.verdict;
     let shows_one = match verdict.status {
-        Status::Refit => false,
+        Status::Refit | Status::Parameters => false,
         // Then no probability is reported.
         Status::None => report.diagnosis.probability_none >= 0.5,
         _ => true,
     };
     let reason = match (report.source, report.rig.order, report.rig.holdout_records().next()) {
-        (Source::Given | Source::Predicted, ..) => "the model was given",
+        (Source::Given | Source::Predicted | Source::Against, ..) => "the model was given",
         (_, None, _) => "no order is declared",
         (.., None) => "no record is held out",
         _ => "models are compared by their free run",

@@ -44,7 +44,10 @@ fn page(report: &Report, file: &str) -> String {
     page.push('\n');
     page.push_str(&records(report));
     page.push('\n');
-    page.push_str(&hypotheses(report, &units));
+    match &report.diagnosis.differences {
+        Some(differences) => page.push_str(&super::differences::table(report, differences)),
+        None => page.push_str(&hypotheses(report, &units)),
+    }
     if !report.diagnosis.limitations.is_empty() {
         page.push_str("\nto be read with care:\n");
         for limitation in &report.diagnosis.limitations {

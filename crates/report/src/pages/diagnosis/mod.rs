@@ -3,6 +3,7 @@
 mod candidates;
 mod chain;
 mod closure;
+mod differences;
 mod experiment;
 mod model;
 mod places;
@@ -37,7 +38,12 @@ pub(super) fn diagnosis(files: &Files) -> Result<String, PageError> {
         records: gap.gap.per_record.iter().map(|record| record.record.clone()).collect(),
         noise: Some(gap.gap.noise_floor),
     };
-    Ok(Page::new("Diagnosis of the sim-to-real gap", &gap.rig, verdict(&gap))
+    let page = Page::new("Diagnosis of the sim-to-real gap", &gap.rig, verdict(&gap));
+    let page = match gap.differences.is_empty() {
+        true => page,
+        false => page.section("differences", "What differs", differences::differences(&gap)),
+    };
+    Ok(page
         .section("stages", "Where in the machine", chain::chain(&gap))
         .section("loop", "The loop", loops(&shown)?)
         .section("outputs", "Outputs over time", outputs(&shown)?)
@@ -67,7 +73,8 @@ pub(super) fn diagnosis(files: &Files) -> Result<String, PageError> {
 /// The verdict in words, then the worth of its probability.
 fn verdict(gap: &GapFile) -> Markup {
     // That it is not calibrated is one of the sentences.
-    let is_calibrated = gap.verdict.calibrated && !matches!(gap.verdict.status.as_str(), "none" | "refit");
+    let is_calibrated =
+        gap.verdict.calibrated && !matches!(gap.verdict.status.as_str(), "none" | "refit" | "parameters");
     html! {
         p class="lead" { (headline(gap)) }
         div class="box" {
@@ -88,6 +95,9 @@ fn headline(gap: &GapFile) -> String {
     let probability = crate::diagnosis::probability(verdict.probability);
     match verdict.status.as_str() {
         "none" => "Nothing significant is missing from the model.".to_owned(),
+        "parameters" => {
+            "Values of what was compared with the machine are off; nothing is missing in it.".to_owned()
+        }
         "refit" => "The model's own parameters are off: identified anew it has no gap that asks for a cause."
             .to_owned(),
         "named" => {
