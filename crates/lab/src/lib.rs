@@ -3,6 +3,7 @@
 pub mod examination;
 pub mod generate;
 pub mod plant;
+pub mod population;
 pub mod power;
 pub mod selftest;
 pub mod training;

@@ -46,6 +46,7 @@ pub use design::Design;
 pub use design::Kind;
 pub use examiner::Examiner;
 pub use field::Bases;
+pub use field::measured_rigs;
 pub use measure::Bound;
 pub use measure::Expect;
 pub use measure::Measure;

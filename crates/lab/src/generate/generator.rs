@@ -62,7 +62,6 @@ impl Generator {
     }
 
     /// What the system has before any effect is put in.
-    #[cfg(test)]
     pub(crate) fn base(&self) -> &[Active] {
         &self.base
     }

@@ -17,7 +17,7 @@ use switchback_model::hysteresis::{Interval, SwitchedHysteresis};
 /// `A(q⁻¹) y(t) = B(q⁻¹) u(t) + ξ(t)` with `u = F[v]`, `u_M − u_m = 1`, `ξ` white, Gaussian, of standard deviation `noise_sd`.
 /// Borders are straight between the levels, so that a nominal model with hat functions there has no gap; or they are curved, so
 /// that no table has none and a fine one hardly any.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub struct Machine {
     /// `a₁…aₙ`.
     pub a: Vec<f64>,

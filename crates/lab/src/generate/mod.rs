@@ -21,14 +21,14 @@
 //! # Ok::<(), switchback_lab::generate::MakeError>(())
 //! ```
 
-mod dataset;
-mod effects;
-mod field;
-mod generator;
-mod injection;
+pub(crate) mod dataset;
+pub(crate) mod effects;
+pub(crate) mod field;
+pub(crate) mod generator;
+pub(crate) mod injection;
 mod key;
-mod law;
-mod machine;
+pub(crate) mod law;
+pub(crate) mod machine;
 mod made_rig;
 mod make;
 mod make_error;
@@ -36,14 +36,16 @@ mod recipe_error;
 mod refit;
 mod requested_fault;
 mod setting;
-mod simulate;
+pub(crate) mod simulate;
 mod size;
-mod stream;
+pub(crate) mod stream;
 
 pub use dataset::Passage;
 pub use dataset::Plan;
 pub use effects::EFFECTS;
 pub use effects::FOREIGN;
+pub use effects::FURTHER_FOREIGN;
+pub use effects::UNNAMED;
 pub use effects::laws_of;
 pub use injection::InjectedFault;
 pub use injection::InjectedRig;

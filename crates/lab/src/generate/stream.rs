@@ -12,6 +12,8 @@ pub(crate) enum Purpose {
     Drive,
     /// What the machine has before any effect is put in.
     Base,
+    /// What is put in, and how much.
+    Cause,
     /// The shape numbers of the `i`-th effect.
     Shape(usize),
     /// The white equation error of a record.
@@ -31,6 +33,7 @@ pub(crate) fn stream(seed: u64, purpose: Purpose) -> ChaCha8Rng {
         Purpose::Machine => 0,
         Purpose::Drive => 1,
         Purpose::Base => 2,
+        Purpose::Cause => 3,
         Purpose::Shape(effect) => 16 + effect as u64,
         Purpose::Noise(record) => 1 << 16 | record as u64,
         Purpose::Effect { effect, record } => 1 << 32 | (effect as u64) << 16 | record as u64,

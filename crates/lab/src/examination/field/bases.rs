@@ -123,18 +123,26 @@ fn folder(study: &Study, rigs: &Path) -> Option<PathBuf> {
     [study.folder.join(rigs), rigs.to_owned()].into_iter().find(|path| path.is_dir())
 }
 
-/// The rigs below a folder, by name.
 fn measured(folder: &Path) -> miette::Result<Vec<Base>> {
+    let base = |(name, rig)| Base { name, rig, made: None, own: Vec::new() };
+    Ok(measured_rigs(folder)?.into_iter().map(base).collect())
+}
+
+/// The measured rigs below a folder, each with its name, in the order of the names.
+///
+/// # Errors
+/// A folder that cannot be listed, or a rig that cannot be read.
+pub fn measured_rigs(folder: &Path) -> miette::Result<Vec<(String, Rig)>> {
     let mut files = Vec::new();
     collect(folder, &mut files)?;
     files.sort();
-    let base = |file: &PathBuf| -> miette::Result<Base> {
+    let named = |file: &PathBuf| -> miette::Result<(String, Rig)> {
         let place = file.parent().unwrap_or(folder);
         let parts = place.strip_prefix(folder).unwrap_or(place).components();
         let name: Vec<_> = parts.map(|part| part.as_os_str().to_string_lossy()).collect();
-        Ok(Base { name: name.join("/"), rig: rig::read(file)?, made: None, own: Vec::new() })
+        Ok((name.join("/"), rig::read(file)?))
     };
-    files.iter().map(base).collect()
+    files.iter().map(named).collect()
 }
 
 /// Every rig file below a folder but those in folders called `made-…`: their rigs are made.

@@ -16,6 +16,7 @@ mod score;
 mod tables;
 
 pub use bases::Bases;
+pub use bases::measured_rigs;
 pub(crate) use key::Key;
 pub(crate) use measure::targets;
 pub(crate) use resample::resampled;

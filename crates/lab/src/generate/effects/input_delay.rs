@@ -5,6 +5,9 @@ use crate::generate::law::{Injection, Law, Scene};
 
 pub(super) static LAWS: [&dyn Law; 2] = [&HeldCommand, &LateClock];
 
+/// Laws that examinations do not draw.
+pub(super) static FURTHER_LAWS: [&dyn Law; 1] = [&ByPosition];
+
 /// A held command that arrives `d = k + f` samples late: `u'(t) = (1−f)·u(t−k) + f·u(t−k−1)`.
 #[derive(Debug)]
 struct HeldCommand;
@@ -52,6 +55,30 @@ impl Law for LateClock {
         for t in (2..u.len()).rev() {
             // As differences from u(t): no fraction, no change, to the bit.
             u[t] += f * (2.0 - f) * (u[t - 1] - u[t]) + 0.5 * f * (f - 1.0) * (u[t - 2] - u[t]);
+        }
+    }
+}
+
+/// A delay of the input itself, `v'(t) = (1−f)·v(t−k) + f·v(t−k−1)`: of a sensor or a bus before the operator.
+#[derive(Debug)]
+struct ByPosition;
+
+impl Law for ByPosition {
+    card!("input_delay", "late position", Input, "samples", 4.0);
+
+    fn injection(&self) -> Injection {
+        Injection::Recording
+    }
+
+    fn recording(&self, scene: &mut Scene<'_>, v: &mut [f64]) {
+        recorded_early(scene.x(), v);
+    }
+
+    fn drive(&self, scene: &mut Scene<'_>, v: &mut [f64]) {
+        let (whole, part) = split(scene.x());
+        shift(v, whole);
+        for t in (1..v.len()).rev() {
+            v[t] += part * (v[t - 1] - v[t]);
         }
     }
 }

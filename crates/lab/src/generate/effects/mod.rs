@@ -5,7 +5,10 @@
 mod envelope;
 mod foreign;
 mod identity;
-mod motion;
+mod inertia;
+pub(crate) mod motion;
+mod position_ripple;
+mod slack;
 
 pub(crate) use identity::card;
 
@@ -24,7 +27,12 @@ macro_rules! catalogue {
             $(if effect == stringify!($effect) {
                 return &$effect::LAWS;
             })*
-            foreign::laws_of(effect)
+            match effect {
+                "inertia" => &inertia::LAWS,
+                "position_ripple" => &position_ripple::LAWS,
+                "slack" => &slack::LAWS,
+                _ => foreign::laws_of(effect),
+            }
         }
     };
 }
@@ -67,3 +75,28 @@ pub const FOREIGN: [&str; 9] = [
     "switching_delay",
     "thermal_step",
 ];
+
+/// Effects with a name of their own that no diagnosis knows yet.
+pub const UNNAMED: [&str; 3] = ["inertia", "position_ripple", "slack"];
+
+/// Further effects that no library of causes is expected to know. Examinations draw from [`FOREIGN`] by position, so that these stand apart.
+pub const FURTHER_FOREIGN: [&str; 9] = [
+    "branch_lag",
+    "clock_jitter",
+    "deadband",
+    "gain_noise",
+    "heating",
+    "maximum_memory",
+    "play_background",
+    "random_telegraph",
+    "varying_delay",
+];
+
+/// Laws of an effect beyond [`laws_of`], from which examinations draw by position.
+pub(crate) fn further_laws_of(effect: &str) -> &'static [&'static dyn Law] {
+    match effect {
+        "input_delay" => &input_delay::FURTHER_LAWS,
+        "output_noise" => &output_noise::FURTHER_LAWS,
+        _ => &[],
+    }
+}

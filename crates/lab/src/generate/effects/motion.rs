@@ -4,7 +4,7 @@ use crate::generate::machine::Machine;
 use switchback_model::hysteresis::Branch;
 
 /// Direction of the last move at every sample: +1 rising, −1 falling. A passage starts loaded at a satellite.
-pub(super) fn directions(machine: &Machine, v: &[f64]) -> Vec<f64> {
+pub(crate) fn directions(machine: &Machine, v: &[f64]) -> Vec<f64> {
     let mut direction =
         if v[0] > 0.5 * (machine.interval.low() + machine.interval.high()) { 1.0 } else { -1.0 };
     let mut last = v[0];

@@ -9,6 +9,9 @@ use std::f64::consts::PI;
 
 pub(super) static LAWS: [&dyn Law; 2] = [&Gaussian, &Uniform];
 
+/// Laws that examinations do not draw.
+pub(super) static FURTHER_LAWS: [&dyn Law; 1] = [&Quiet];
+
 /// `y' = y + w`, `w` white Gaussian of sd `x·σ`.
 #[derive(Debug)]
 struct Gaussian;
@@ -52,6 +55,32 @@ impl Law for Uniform {
         let half = 3.0_f64.sqrt() * scene.x() * scene.machine.noise_sd;
         for now in y {
             *now += half * scene.rng.random_range(-1.0..1.0);
+        }
+    }
+}
+
+/// The same with `w` a Gaussian whose sd is 1.3 for a half of the dataset and 0.56 for the other: unit variance on the whole.
+#[derive(Debug)]
+struct Quiet;
+
+impl Law for Quiet {
+    card!("output_noise", "loud and quiet halves", Disturbance, "noise sd", 300.0);
+
+    fn nature(&self) -> Nature {
+        Nature::Noise
+    }
+
+    fn oracle_variance(&self, machine: &Machine, amount: &Amount) -> f64 {
+        innovations_variance(machine, amount.magnitude)
+    }
+
+    fn sensor(&self, scene: &mut Scene<'_>, y: &mut [f64]) {
+        let sd = scene.x() * scene.machine.noise_sd;
+        let first = scene.amount.sign(0) > 0.0;
+        for (t, now) in y.iter_mut().enumerate() {
+            let normal: f64 = StandardNormal.sample(&mut scene.rng);
+            let loud = (scene.passage.clock(t) < 0.5) == first;
+            *now += sd * normal * if loud { 1.3 } else { 0.31_f64.sqrt() };
         }
     }
 }

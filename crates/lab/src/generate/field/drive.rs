@@ -6,7 +6,7 @@ use std::f64::consts::{PI, TAU};
 
 /// What drives the input through a record.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Drive {
+pub(crate) enum Drive {
     /// A sum of 8 to 20 sines of random frequencies and phases.
     Multisine,
     /// Random levels, reached at once and held.
@@ -20,14 +20,14 @@ pub(super) enum Drive {
 }
 
 impl Drive {
-    pub(super) const ALL: [Self; 5] =
+    pub(crate) const ALL: [Self; 5] =
         [Self::Multisine, Self::RandomSteps, Self::Triangle, Self::SlowSweep, Self::OperatingCycles];
 
     /// Those that come by every place again and again.
     pub(super) const THOROUGH: [Self; 3] = [Self::Multisine, Self::Triangle, Self::SlowSweep];
 
     /// The name of a record with it.
-    pub(super) fn name(self) -> &'static str {
+    pub(crate) fn name(self) -> &'static str {
         match self {
             Self::Multisine => "multisine",
             Self::RandomSteps => "random-steps",
@@ -38,7 +38,7 @@ impl Drive {
     }
 
     /// So many samples of it; `period`, in samples, is what most of it takes there and back.
-    pub(super) fn samples(self, samples: usize, period: f64, rng: &mut ChaCha8Rng) -> Vec<f64> {
+    pub(crate) fn samples(self, samples: usize, period: f64, rng: &mut ChaCha8Rng) -> Vec<f64> {
         let mut z = match self {
             Self::Multisine => multisine(samples, period, rng),
             Self::RandomSteps => random_steps(samples, period, rng),
@@ -112,7 +112,7 @@ fn operating_cycles(samples: usize, period: f64, rng: &mut ChaCha8Rng) -> Vec<f6
 }
 
 /// Moves on to a target at two reaches a period, and arrives there to the bit: a rest must not move.
-fn ramp(z: &mut Vec<f64>, target: f64, period: f64, course: impl Fn(f64) -> f64) {
+pub(crate) fn ramp(z: &mut Vec<f64>, target: f64, period: f64, course: impl Fn(f64) -> f64) {
     let from = z[z.len() - 1];
     let duration = (0.5 * period * (target - from).abs()).ceil().max(1.0) as usize;
     z.extend((1..duration).map(|k| from + (target - from) * course(k as f64 / duration as f64)));

@@ -5,10 +5,10 @@
 //! planted into measured records ([`InjectedFault::size`](crate::generate::InjectedFault::size)).
 
 mod colour;
-mod drive;
+pub(crate) mod drive;
 mod machine;
 mod properties;
-mod reading;
+pub(crate) mod reading;
 mod records;
 mod sizing;
 

@@ -6,7 +6,7 @@ use rand_distr::{Distribution, StandardNormal};
 
 /// White Gaussian noise of standard deviation `x` on the record of the input, at rest too; the machine never feels it.
 #[derive(Debug)]
-pub(super) struct Reading;
+pub(crate) struct Reading;
 
 impl Law for Reading {
     card!("input_noise", "noise of the input's sensor", Input, INTERVAL_WIDTHS, 0.2);

@@ -7,13 +7,18 @@ use crate::generate::requested_fault::RequestedFault;
 use crate::generate::simulate::Active;
 use crate::generate::stream::{Purpose, stream};
 use rand::RngExt;
-use switchback_identify::free::Identified;
+use switchback_identify::free::{Identified, Model};
 use switchback_model::rig::Rig;
 
 impl InjectionContext<'_> {
     /// The model that sizes are measured against: identified from the fit records as they are.
     pub(crate) fn identified(&self) -> &Identified {
         &self.base.identified
+    }
+
+    /// The model that carries faults.
+    pub(crate) fn host(&self) -> &Model {
+        &self.host_model.model
     }
 
     /// The records with a fault whose magnitude is known: with that of [`machine`](Self::machine) and the same seed the same records to the bit.

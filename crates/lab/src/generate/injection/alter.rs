@@ -4,6 +4,7 @@ use super::InjectionError;
 use super::host_model::HostModel;
 use crate::generate::dataset::Passage;
 use crate::generate::law::{Injection, Scene};
+use crate::generate::machine::Machine;
 use crate::generate::simulate::{Active, Noise, simulate};
 use crate::generate::stream::{Purpose, stream};
 use switchback_model::record::Record;
@@ -17,7 +18,8 @@ pub(super) fn altered(
     seed: u64,
 ) -> Result<Rig, InjectionError> {
     let with = |(record, passage): (&RigRecord, &Passage)| {
-        let (v, y) = signals(host_model, (record, passage), active, seed);
+        let (mut v, mut y) = (record.record.v().to_vec(), record.record.y().to_vec());
+        alter(&host_model.machine, passage, (active, seed), (&mut v, &mut y));
         Ok(RigRecord { record: Record::new(v, y)?, predicted: None, ..record.clone() })
     };
     let records =
@@ -25,14 +27,13 @@ pub(super) fn altered(
     Ok(Rig { records, ..rig.clone() })
 }
 
-/// Input and output of a record with the effect.
-fn signals(
-    host_model: &HostModel,
-    (record, passage): (&RigRecord, &Passage),
-    active: &Active,
-    seed: u64,
-) -> (Vec<f64>, Vec<f64>) {
-    let (mut v, mut y) = (record.record.v().to_vec(), record.record.y().to_vec());
+/// Puts the effect into input and output of a record.
+pub(crate) fn alter(
+    machine: &Machine,
+    passage: &Passage,
+    (active, seed): (&Active, u64),
+    (v, y): (&mut [f64], &mut [f64]),
+) {
     // The record without its lead-in, for what acts on the measured signals themselves.
     let alone = Passage {
         v: passage.recorded(&passage.v).to_vec(),
@@ -41,19 +42,18 @@ fn signals(
         ..passage.clone()
     };
     let rng = stream(seed, Purpose::Effect { effect: active.slot, record: passage.index });
-    let mut scene = Scene { machine: &host_model.machine, passage: &alone, amount: active.amount, rng };
+    let mut scene = Scene { machine, passage: &alone, amount: active.amount, rng };
     match active.law.injection() {
-        Injection::Reading => active.law.sensor(&mut scene, &mut y),
-        Injection::Gain => active.law.dynamics(&mut scene, &mut y),
-        Injection::Recording => active.law.recording(&mut scene, &mut v),
+        Injection::Reading => active.law.sensor(&mut scene, y),
+        Injection::Gain => active.law.dynamics(&mut scene, y),
+        Injection::Recording => active.law.recording(&mut scene, v),
         Injection::Carried => {
             let run = |effects: &[Active]| {
-                let trace = simulate(&host_model.machine, effects, passage, seed, Noise::Recorded);
+                let trace = simulate(machine, effects, passage, seed, Noise::Recorded);
                 passage.recorded(&trace.y).to_vec()
             };
             let (without, with) = (run(&[]), run(std::slice::from_ref(active)));
             y.iter_mut().zip(with.iter().zip(&without)).for_each(|(y, (with, without))| *y += with - without);
         }
     }
-    (v, y)
 }

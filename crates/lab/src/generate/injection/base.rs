@@ -18,7 +18,7 @@ pub(crate) struct Base {
     /// `r` of each judged record, from the first sample that is simulated.
     left: Vec<Vec<f64>>,
     /// Root mean square of all.
-    pub(super) residual: f64,
+    pub(crate) residual: f64,
 }
 
 impl Base {

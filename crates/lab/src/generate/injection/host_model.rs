@@ -13,10 +13,12 @@ const KNOTS: usize = 17;
 
 /// A machine that is close to the measured one and lies outside the candidates' class.
 #[derive(Debug)]
-pub(super) struct HostModel {
-    pub(super) machine: Machine,
+pub(crate) struct HostModel {
+    /// The model that it was made of.
+    pub(crate) model: Model,
+    pub(crate) machine: Machine,
     /// The records as passages, in the rig's order.
-    pub(super) passages: Vec<Passage>,
+    pub(crate) passages: Vec<Passage>,
 }
 
 impl HostModel {
@@ -41,14 +43,14 @@ impl HostModel {
     }
 
     /// A model as the host model.
-    pub(super) fn of(rig: &Rig, model: &Model) -> Result<Self, InjectionError> {
+    pub(crate) fn of(rig: &Rig, model: &Model) -> Result<Self, InjectionError> {
         let mut machine = machine(model, rig)?;
         let lead = (-model.structure().delay).max(0) as usize;
         let passages = passages(rig, &machine, (lead, model.rule().threshold));
         machine.noise_sd = equation_error(&machine, &passages, rig);
         let centre = machine.y_centre();
         machine.reach = outputs(rig).map(|y| (y - centre).abs()).fold(0.0, f64::max);
-        Ok(Self { machine, passages })
+        Ok(Self { model: model.clone(), machine, passages })
     }
 }
 
@@ -105,7 +107,7 @@ fn machine(model: &Model, rig: &Rig) -> Result<Machine, InjectionError> {
 
 /// The records with their lead-ins. The input is led by the samples that the output precedes it, and follows moves beyond the threshold of
 /// reversals only: noise on `v` must not switch the borders.
-fn passages(rig: &Rig, machine: &Machine, (lead, threshold): (usize, f64)) -> Vec<Passage> {
+pub(crate) fn passages(rig: &Rig, machine: &Machine, (lead, threshold): (usize, f64)) -> Vec<Passage> {
     let settle = machine.settling();
     let passage = |(index, record): (usize, &RigRecord)| {
         let recorded = quiet(record.record.v(), threshold);
@@ -118,7 +120,7 @@ fn passages(rig: &Rig, machine: &Machine, (lead, threshold): (usize, f64)) -> Ve
 }
 
 /// An input behind a play as wide as the threshold.
-fn quiet(v: &[f64], threshold: f64) -> Vec<f64> {
+pub(crate) fn quiet(v: &[f64], threshold: f64) -> Vec<f64> {
     let half = 0.5 * threshold;
     let mut at = v[0];
     v.iter()

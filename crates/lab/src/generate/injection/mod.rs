@@ -16,14 +16,14 @@
 //! on the planted input: what a model given beforehand newly misses.
 
 mod again;
-mod alter;
+pub(crate) mod alter;
 mod base;
-mod host_model;
+pub(crate) mod host_model;
 mod injection_error;
 mod search;
 
-pub(super) use self::base::Base;
-use self::host_model::HostModel;
+pub(crate) use self::base::Base;
+pub(crate) use self::host_model::HostModel;
 pub use self::injection_error::InjectionError;
 pub(crate) use self::search::Goal;
 pub use self::search::Precision;
