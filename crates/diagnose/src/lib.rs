@@ -60,6 +60,7 @@
 //! | `attribution` | effects looked at, fitted, composed: candidates, best first |
 //! | `residuals` | tests of what a candidate leaves: in general, by frequency, by parameter |
 //! | `simulation` | free runs of what is fitted |
+//! | `posterior` | trained weights: probabilities of all outcomes from columns of evidence, and what is reported of them |
 //! | `verdict` | calibrated odds of the candidates, and what is reported |
 //! | `localise`, `closure`, `experiments` | where, how far, and the record that would separate rivals |
 //! | `export` | models that leave: all that their free runs depend on, as plain data, with the covariance of what was estimated |
@@ -88,6 +89,7 @@ mod model;
 mod nominal;
 mod nominal_model;
 mod phase;
+pub mod posterior;
 mod records;
 mod residuals;
 mod settings;

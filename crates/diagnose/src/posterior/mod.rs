@@ -1,0 +1,31 @@
+//! A trained posterior: from named columns of evidence to probabilities of all outcomes.
+//!
+//! The weights are data ([`Posterior::read`]), written by a command of the laboratory. Evaluation is plain arithmetic in a fixed order. The
+//! probabilities are a weighted geometric mean of [boosted trees](Trees), a [network](Network) and a [ranker](Ranker), raised to a power that
+//! was fitted to a population. [`Novelty`] tells how far a row lies from what the posterior was trained on, [`told`] what is reported.
+
+mod bytes;
+mod decision;
+mod error;
+mod file;
+mod network;
+mod novelty;
+mod ranker;
+mod softmax;
+mod standard;
+mod trees;
+mod weights;
+
+pub use decision::{Losses, Outcome, Thresholds, Told, told};
+pub use error::PosteriorError;
+pub use file::VERSION;
+pub use network::{Layer, Network};
+pub use novelty::Novelty;
+pub use ranker::Ranker;
+pub use softmax::softmax;
+pub use standard::Standard;
+pub use trees::{Node, Tree, Trees};
+pub use weights::{Posterior, Shares};
+
+#[cfg(test)]
+mod tests;
