@@ -2,6 +2,7 @@
 
 pub mod examination;
 pub mod generate;
+pub mod learning;
 pub mod plant;
 pub mod population;
 pub mod power;

@@ -57,7 +57,6 @@ pub use part::Whole;
 pub use part::merged;
 pub use part::read_cases;
 pub use random::scramble;
-#[cfg(test)]
 pub(crate) use random::uniform;
 pub(crate) use rating::{BaseVerdicts, Rating, WIDEST_CLASS};
 pub use reply::ClosureCheck;
