@@ -45,7 +45,11 @@ pub(super) fn changed(parts: &Parts, row: Row, rng: &mut ChaCha8Rng) -> Parts {
         Row::Gain => other.gain *= share.exp(),
         Row::Offset => other.offset += share * range * parts.gain.abs(),
         Row::Delay => other.numerator = delayed(&parts.numerator, log_uniform(rng, 0.1, 5.0)),
-        Row::TimeConstant => scale_slowest(&mut other.modes, share.exp()),
+        Row::TimeConstant => {
+            if let Some(Mode::Lag { time_constant }) = other.modes.first_mut() {
+                *time_constant *= share.exp();
+            }
+        }
         Row::Damping | Row::Frequency => {
             for mode in &mut other.modes {
                 if let Mode::Oscillation { frequency, damping } = mode {
@@ -80,21 +84,6 @@ fn delayed(numerator: &[f64], delay: f64) -> Vec<f64> {
     multiply(numerator, &late)
 }
 
-fn scale_slowest(modes: &mut [Mode], factor: f64) {
-    let of = |mode: &Mode| match mode {
-        Mode::Lag { time_constant } => *time_constant,
-        Mode::Oscillation { .. } => 0.0,
-    };
-    let slowest = modes.iter().map(of).fold(0.0, f64::max);
-    for mode in modes {
-        if let Mode::Lag { time_constant } = mode
-            && *time_constant == slowest
-        {
-            *time_constant *= factor;
-        }
-    }
-}
-
 /// The value of a row, in the unit of [`Row`]; none of what a machine's parts do not hold.
 pub(super) fn value(parts: &Parts, row: Row) -> Option<f64> {
     let mean = |x: &[f64]| x.iter().sum::<f64>() / x.len() as f64;
@@ -113,7 +102,10 @@ pub(super) fn value(parts: &Parts, row: Row) -> Option<f64> {
         Row::Gain => parts.gain,
         Row::Offset => parts.offset,
         Row::Delay => delay(&parts.numerator),
-        Row::TimeConstant => parts.slowest() * parts.sample_time,
+        Row::TimeConstant => match parts.modes.first()? {
+            Mode::Lag { time_constant } => time_constant * parts.sample_time,
+            Mode::Oscillation { .. } => return None,
+        },
         Row::Damping => oscillation?.1,
         Row::Frequency => oscillation?.0 / parts.sample_time,
         Row::Friction => parts.gain * mean(&parts.curves.half),

@@ -13,7 +13,7 @@ pub enum Row {
     Offset,
     /// Delay beyond the first sample, samples.
     Delay,
-    /// The slowest time constant, seconds.
+    /// The time constant of the same lag on both sides, the slowest on one of them, seconds.
     TimeConstant,
     /// Damping of the oscillation.
     Damping,
