@@ -1,11 +1,12 @@
 use super::*;
 use crate::generate::law::Amount;
 use crate::generate::simulate::Active;
-use crate::generate::{EFFECTS, FOREIGN, FURTHER_FOREIGN, UNNAMED};
+use crate::generate::{EFFECTS, FOREIGN, FURTHER_FOREIGN, MakeRig, Setting, UNNAMED};
 use rayon::prelude::*;
 use std::collections::BTreeSet;
 use std::fmt::Write;
 use switchback_io::output::sha256;
+use switchback_model::record::Record;
 use switchback_model::rig::Usage;
 
 fn rigs(count: u64) -> Vec<TrainingRig> {
@@ -133,4 +134,33 @@ fn sizes_are_those_of_identification_anew_in_the_middle() {
     assert!(ratios.len() >= 10, "{ratios:?}");
     assert!((0.4..2.0).contains(&ratios[ratios.len() / 2]), "{ratios:?}");
     assert!(ratios.iter().filter(|ratio| **ratio < 2.0).count() * 4 >= 3 * ratios.len(), "{ratios:?}");
+}
+
+#[test]
+fn half_of_a_population_stands_on_measured_bases_where_there_are_any() {
+    let bench = MakeRig::new(3).setting(Setting::Field).make().expect("a rig").rig;
+    let mut flat = bench.clone();
+    flat.records.truncate(1);
+    flat.records[0].record = Record::new(vec![0.5; 400], vec![1.0; 400]).expect("a record");
+    let (bases, refused) =
+        MeasuredBases::identified(vec![("bench".to_owned(), bench.clone()), ("flat".to_owned(), flat)]);
+    assert_eq!(bases.names().collect::<Vec<_>>(), ["bench"]);
+    assert_eq!(refused.iter().map(|(name, _)| name.as_str()).collect::<Vec<_>>(), ["flat"]);
+    let rigs: Vec<TrainingRig> = (0..80).into_par_iter().filter_map(|index| draw(7, index, &bases)).collect();
+    let on_measured = rigs.iter().filter(|rig| rig.truth.family.is_measured()).count();
+    assert!(rigs.len() >= 78 && (28..52).contains(&on_measured), "{on_measured} of {}", rigs.len());
+    for TrainingRig { before, truth, .. } in rigs.iter().filter(|rig| rig.truth.family.is_measured()) {
+        assert_eq!(truth.base, "bench");
+        for record in &before.records {
+            // The input is a window of a measured one; of measured records the output is too.
+            let (v, y) = (record.record.v(), record.record.y());
+            let is_window = |source: &[f64], x: &[f64]| source.windows(x.len()).any(|window| window == x);
+            let sources = || bench.records.iter().map(|source| &source.record);
+            assert!(sources().any(|source| is_window(source.v(), v)), "{truth:?}");
+            let is_measured = sources().any(|source| is_window(source.y(), y));
+            assert_eq!(is_measured, truth.family == Family::Measured, "{truth:?}");
+        }
+    }
+    let again: Vec<TrainingRig> = (0..12).filter_map(|index| draw(7, index, &bases)).collect();
+    assert_eq!(again[..], rigs[..again.len()]);
 }
