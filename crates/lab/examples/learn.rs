@@ -12,16 +12,27 @@ use miette::{IntoDiagnostic, miette};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use std::path::Path;
+use std::process::ExitCode;
 use switchback_diagnose::posterior::{Losses, Posterior};
 use switchback_io::input::own;
-use switchback_io::output::{Artefacts, OutputFile, OutputFolder, print};
+use switchback_io::output::{Artefacts, OutputFile, OutputFolder, note, print};
 use switchback_lab::learning::{
     Binned, BoostingSettings, LearningSettings, Table, Target, boost, compare, fit, fit_thresholds, outcomes,
 };
 
 const USAGE: &str = "fit TABLE.csv POSTERIOR.bin, compare TABLE.csv FOLDER, thresholds TABLE.csv POSTERIOR.bin, or time ROWS COLUMNS CLASSES";
 
-fn main() -> miette::Result<()> {
+fn main() -> ExitCode {
+    match run() {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) => {
+            note(&format!("error: {error}\n"));
+            ExitCode::from(2)
+        }
+    }
+}
+
+fn run() -> miette::Result<()> {
     let words: Vec<String> = std::env::args().skip(1).collect();
     let words: Vec<&str> = words.iter().map(String::as_str).collect();
     let settings = LearningSettings::default();

@@ -13,6 +13,7 @@ use cpu_time::ProcessTime;
 use miette::{IntoDiagnostic, miette};
 use std::fmt::Write;
 use std::path::Path;
+use std::process::ExitCode;
 use switchback_io::output::{OutputFolder, note, print};
 use switchback_io::rig::artefacts;
 use switchback_lab::examination::measured_rigs;
@@ -23,7 +24,17 @@ use switchback_model::rig::Rig;
 
 const USAGE: &str = "table|sizes SEED COUNT [RIGS], write SEED FIRST COUNT FOLDER [RIGS], pairs SEED COUNT, or write-pairs SEED FIRST COUNT FOLDER";
 
-fn main() -> miette::Result<()> {
+fn main() -> ExitCode {
+    match run() {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) => {
+            note(&format!("error: {error}\n"));
+            ExitCode::from(2)
+        }
+    }
+}
+
+fn run() -> miette::Result<()> {
     let words: Vec<String> = std::env::args().skip(1).collect();
     let words: Vec<&str> = words.iter().map(String::as_str).collect();
     match words.as_slice() {
