@@ -75,6 +75,7 @@ fn sealed(study: &Study) -> Vec<Sealed> {
 fn silent(status: Status) -> Diagnosis {
     let nothing = Figure { estimate: 0.0, ci90: [0.0, 0.0] };
     Diagnosis {
+        differences: None,
         verdict: Verdict {
             status,
             effects: vec![],

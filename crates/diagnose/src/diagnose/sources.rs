@@ -52,7 +52,7 @@ fn differences(rig: &Rig, model: &Model) -> Result<Option<Differences>, Diagnose
         Model::Identify => return Ok(None),
         Model::Predicted => Source::Predictions,
         Model::Given(model) => match system(model) {
-            Some(system) => Source::Model(system),
+            Some(system) => Source::Model(Box::new(system)),
             None => return Ok(None),
         },
         Model::Against(records) => {

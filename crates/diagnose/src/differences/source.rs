@@ -12,7 +12,7 @@ pub enum Source {
     /// The prediction of a simulator on each of the machine's records.
     Predictions,
     /// A model.
-    Model(System),
+    Model(Box<System>),
     /// Records of another machine, or of the same on another day.
     Records(Vec<Record>),
 }
@@ -39,7 +39,7 @@ impl Source {
             Self::Predictions => surrogate(&predicted.iter().collect::<Vec<_>>(), noise)?
                 .map(|system| Identified { system, records: stretches(predicted), is_carried: true }),
             Self::Model(system) => {
-                Some(Identified { system: system.clone(), records: Vec::new(), is_carried: false })
+                Some(Identified { system: System::clone(system), records: Vec::new(), is_carried: false })
             }
             Self::Records(records) => {
                 let own: Vec<&Record> = records.iter().collect();

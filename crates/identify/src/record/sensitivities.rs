@@ -124,7 +124,7 @@ impl Sensitivities {
             let gradient = rows * right;
             self.gradient += &gradient;
             match self.blocks.last_mut() {
-                Some(last) if from == 0 && (stretch.span.before % length) != 0 => *last += gradient,
+                Some(last) if from == 0 && !stretch.span.before.is_multiple_of(length) => *last += gradient,
                 _ => self.blocks.push(gradient),
             }
             from = to;

@@ -89,6 +89,7 @@ mod tests {
             per_record: vec![],
         };
         let diagnosis = Diagnosis {
+            differences: None,
             verdict,
             second_opinion: None,
             gap,
