@@ -1,13 +1,14 @@
-//! The processes of an FMU, as the diagnosis sees them.
+//! Foreign processes, as the process sees them that began their guards.
 
 use crate::messages::{End, Job, heard};
 use crate::system;
 use std::collections::{BTreeMap, VecDeque};
+use std::ffi::OsString;
 use std::io::{self, BufReader, Read, Write};
 use std::path::Path;
-use std::process::{Child, ChildStdin, Command, ExitStatus, Stdio};
+use std::process::{Child, ChildStdin, ChildStdout, Command, ExitStatus, Stdio};
 use std::sync::mpsc::{Receiver, RecvTimeoutError, channel};
-use std::sync::{Mutex, MutexGuard, PoisonError};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::thread;
 use std::time::{Duration, Instant};
 
@@ -18,7 +19,7 @@ const KEPT: usize = 1 << 16;
 const LOOK: Duration = Duration::from_millis(2);
 
 /// How long a guard may take to clear up.
-const CLEARING: Duration = Duration::from_secs(8);
+pub(crate) const CLEARING: Duration = Duration::from_secs(8);
 
 /// How it ended.
 pub(crate) enum Ended {
@@ -36,9 +37,12 @@ pub(crate) struct Outcome {
     pub(crate) printed: String,
 }
 
-/// The guards of this process by their numbers, with the pipe that ends each where it is closed.
+/// The standard input of a guard, which ends all that it guards where it is closed.
+type Pipe = Arc<Mutex<Option<ChildStdin>>>;
+
+/// The guards of this process by their numbers.
 struct Guards {
-    pipes: BTreeMap<u32, Option<ChildStdin>>,
+    pipes: BTreeMap<u32, Pipe>,
     is_stopping: bool,
 }
 
@@ -48,11 +52,15 @@ fn guards() -> MutexGuard<'static, Guards> {
     GUARDS.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-/// Ends all FMUs, and waits until nothing of them is left. Whoever runs one waits for ever: this process is to end.
+fn close(pipe: &Pipe) {
+    drop(pipe.lock().unwrap_or_else(PoisonError::into_inner).take());
+}
+
+/// Ends all foreign processes, and waits until nothing of them is left. Whoever runs one waits for ever: this process is to end.
 pub fn stop() {
     let mut all = guards();
     all.is_stopping = true;
-    all.pipes.values_mut().for_each(|pipe| drop(pipe.take()));
+    all.pipes.values().for_each(close);
     drop(all);
     let begun = Instant::now();
     while !guards().pipes.is_empty() && begun.elapsed() < CLEARING {
@@ -65,10 +73,12 @@ pub fn stop() {
 /// # Errors
 /// If the system refuses a process.
 pub(crate) fn run(fmu: &Path, job: &Job, patience: Duration) -> io::Result<Outcome> {
-    let mut guard = Guard::begin(fmu)?;
+    let mut guard = Guard::begin(["fmu-host".into(), std::path::absolute(fmu)?.into()])?;
     let printed = guard.tail();
-    let news = guard.listen(job.inputs.iter().map(Vec::len).collect());
-    guard.send(job);
+    let lengths = job.inputs.iter().map(Vec::len).collect();
+    let news = listen(guard.output(), lengths);
+    let text = serde_json::to_string(job).expect("numbers and words are JSON") + "\n";
+    let _where_it_has_ended = guard.send(text.as_bytes());
     let mut is_silent = false;
     let said = loop {
         match news.recv_timeout(if is_silent { CLEARING } else { patience }) {
@@ -92,77 +102,84 @@ enum News {
     End(End),
 }
 
+/// Reads all that is said of records of these lengths.
+fn listen(source: Option<ChildStdout>, lengths: Vec<usize>) -> Receiver<News> {
+    let (sender, receiver) = channel();
+    thread::spawn(move || {
+        let goes_on = || drop(sender.send(News::GoesOn));
+        let source = source.map(BufReader::new);
+        let end = source.map(|source| heard(&lengths, source, goes_on)).unwrap_or_default();
+        let _where_nobody_waits = sender.send(News::End(end));
+    });
+    receiver
+}
+
 /// A guard that runs.
-struct Guard(Child);
+#[derive(Debug)]
+pub(crate) struct Guard {
+    child: Child,
+    pipe: Pipe,
+}
 
 impl Guard {
-    fn begin(fmu: &Path) -> io::Result<Self> {
+    /// Begins this program once more, as a guard with these arguments.
+    pub(crate) fn begin(arguments: impl IntoIterator<Item = OsString>) -> io::Result<Self> {
         let mut command = Command::new(std::env::current_exe()?);
-        command.arg("fmu-host").arg(std::path::absolute(fmu)?);
+        command.args(arguments);
         system::apart(&mut command).stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped());
         let mut all = guards();
-        let child = command.spawn()?;
-        all.pipes.insert(child.id(), None);
-        Ok(Self(child))
+        let mut child = command.spawn()?;
+        let pipe = Arc::new(Mutex::new(child.stdin.take().filter(|_| !all.is_stopping)));
+        all.pipes.insert(child.id(), Arc::clone(&pipe));
+        Ok(Self { child, pipe })
     }
 
-    /// Reads all that is printed, and gives the end of it.
-    fn tail(&mut self) -> Receiver<String> {
+    /// What those that it guards say by standard output; once.
+    pub(crate) fn output(&mut self) -> Option<ChildStdout> {
+        self.child.stdout.take()
+    }
+
+    /// Reads all that is printed to standard error, and gives the end of it.
+    pub(crate) fn tail(&mut self) -> Receiver<String> {
         let (sender, receiver) = channel();
-        let source = self.0.stderr.take();
+        let source = self.child.stderr.take();
         thread::spawn(move || {
             let _where_nobody_waits = sender.send(source.map(last_of).unwrap_or_default());
         });
         receiver
     }
 
-    /// Reads all that is said of records of these lengths.
-    fn listen(&mut self, lengths: Vec<usize>) -> Receiver<News> {
-        let (sender, receiver) = channel();
-        let source = self.0.stdout.take().map(BufReader::new);
-        thread::spawn(move || {
-            let goes_on = || drop(sender.send(News::GoesOn));
-            let end = source.map(|source| heard(&lengths, source, goes_on)).unwrap_or_default();
-            let _where_nobody_waits = sender.send(News::End(end));
-        });
-        receiver
+    /// Sends bytes to those that it guards.
+    ///
+    /// # Errors
+    /// Where it has ended, or is to end.
+    pub(crate) fn send(&self, bytes: &[u8]) -> io::Result<()> {
+        let mut pipe = self.pipe.lock().unwrap_or_else(PoisonError::into_inner);
+        pipe.as_mut().ok_or(io::ErrorKind::BrokenPipe)?.write_all(bytes)
     }
 
-    /// Sends the job; what has ended reads none.
-    fn send(&mut self, job: &Job) {
-        let Some(mut pipe) = self.0.stdin.take() else { return };
-        let text = serde_json::to_string(job).expect("numbers and words are JSON") + "\n";
-        let _where_it_has_ended = pipe.write_all(text.as_bytes());
-        let mut all = guards();
-        if !all.is_stopping {
-            all.pipes.insert(self.0.id(), Some(pipe));
-        }
-    }
-
-    /// Has it end the simulation.
-    fn release(&self) {
-        if let Some(pipe) = guards().pipes.get_mut(&self.0.id()) {
-            drop(pipe.take());
-        }
+    /// Has it end all that it guards.
+    pub(crate) fn release(&self) {
+        close(&self.pipe);
     }
 
     /// Waits until it has cleared up.
-    fn end(mut self) -> io::Result<ExitStatus> {
+    pub(crate) fn end(mut self) -> io::Result<ExitStatus> {
         self.release();
         let begun = Instant::now();
         let status = loop {
-            match self.0.try_wait() {
+            match self.child.try_wait() {
                 Ok(None) if begun.elapsed() < CLEARING => thread::sleep(LOOK),
-                Ok(None) => drop(self.0.kill()),
+                Ok(None) => drop(self.child.kill()),
                 Ok(Some(status)) => break Ok(status),
                 Err(error) => break Err(error),
             }
         };
         let mut all = guards();
-        all.pipes.remove(&self.0.id());
+        all.pipes.remove(&self.child.id());
         let is_stopping = all.is_stopping;
         drop(all);
-        // Another thread ends the process: nobody shall take this for a failure of the FMU.
+        // Another thread ends the process: nobody shall take this for a failure of theirs.
         if is_stopping {
             loop {
                 thread::park();
