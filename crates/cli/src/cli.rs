@@ -48,6 +48,8 @@ enum Verb {
     Man(cmd::man::Args),
     Merge(cmd::merge::Args),
     #[command(hide = true)]
+    Method(cmd::method::Args),
+    #[command(hide = true)]
     MethodHost(cmd::method_host::Args),
     Plant(cmd::plant::Args),
     Replay(cmd::replay::Args),
@@ -138,6 +140,7 @@ impl Cli {
             Some(Verb::Launch(args)) => cmd::launch::run(&args),
             Some(Verb::Man(args)) => cmd::man::run(&args, Self::command()),
             Some(Verb::Merge(args)) => cmd::merge::run(&args),
+            Some(Verb::Method(args)) => cmd::method::run(&args),
             Some(Verb::MethodHost(args)) => cmd::method_host::run(&args),
             Some(Verb::Plant(args)) => cmd::plant::run(&args),
             Some(Verb::Replay(args)) => cmd::replay::run(&args),

@@ -23,6 +23,7 @@ mod engine;
 mod export;
 mod field;
 mod fmu;
+mod foreign;
 mod free_study;
 mod fuzz;
 mod gap;

@@ -61,7 +61,7 @@ fn superposition_gives_the_estimates_of_the_simulated_records() {
                 let both = [&data[0], &data[1]];
                 for &method in &scenario.sweep().methods {
                     let cell = cells.next().expect("one cell a setting, N and method");
-                    assert_eq!((cell.series.method, cell.samples), (method, samples));
+                    assert_eq!((&cell.series.method, cell.samples), (&method.into(), samples));
                     let fit = match method {
                         Method::PaperDescendant => PulseMethod::Paper { experiment: both[0], step: step(0) },
                         Method::PaperAscendant => PulseMethod::Paper { experiment: both[1], step: step(1) },

@@ -61,7 +61,8 @@ fn a_grid_that_holds_the_borders_is_consistent_and_at_its_theory() {
     assert!(results.as_expected(), "{:?}", results.expectations);
     assert!(results.summaries.iter().all(|s| s.verdict == Verdict::Consistent));
     let last = results.cells.last().expect("a cell");
-    assert_eq!((last.series.method, last.samples, last.replicates), (Method::Free, 4500, 96));
+    assert_eq!(last.series.method, Method::Free);
+    assert_eq!((last.samples, last.replicates), (4500, 96));
     let names: Vec<&str> = last.parameters.iter().map(|p| p.name.as_str()).collect();
     assert_eq!(
         names,

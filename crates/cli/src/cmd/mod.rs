@@ -15,6 +15,7 @@ pub(crate) mod init;
 pub(crate) mod launch;
 pub(crate) mod man;
 pub(crate) mod merge;
+pub(crate) mod method;
 pub(crate) mod method_host;
 mod partial;
 pub(crate) mod plant;

@@ -110,6 +110,7 @@ pub(crate) fn run(args: &Args) -> CommandResult {
     let folder = args.output.force.claim_if_asked(args.out.as_deref(), &files, &[&args.results])?;
     let scenario = results.to_scenario()?;
     let study = args.threads.install(|| Study::plan(&scenario))?.into_diagnostic()?;
+    study.begin_methods().into_diagnostic()?;
     let found = args.threads.install(|| study.replicate(id.replicate as usize))?;
     if found.len() != cells {
         let Results { name, version, .. } = results;

@@ -24,7 +24,7 @@ pub(super) fn figures(seed: u64) -> miette::Result<Vec<Figure>> {
 fn compare(superposed: &Results, direct: &Results) -> Vec<Figure> {
     let mut figures = Vec::new();
     for (fast, slow) in superposed.cells.iter().zip(&direct.cells) {
-        let method = fast.series.method;
+        let method = &fast.series.method;
         let (mut apart, mut counted_apart) = (0.0_f64, 0.0_f64);
         for (p, q) in fast.parameters.iter().zip(&slow.parameters) {
             let value = |x: Option<f64>| x.unwrap_or(f64::NAN);

@@ -10,7 +10,7 @@ use super::spread::{ERRORS, Spread};
 use super::style::{
     FAINT, GREY, MARGIN, OKABE_ITO, Pen, SMALL_RADIUS, Shape, TextLook, count, rounded, tint,
 };
-use switchback_identify::Method;
+use switchback_study::MethodName;
 use switchback_study::results::{Group, Measured, Results, Series, Summary};
 
 /// Height of a method's row and of the heading of a group, pixels.
@@ -63,8 +63,9 @@ pub(super) fn figure(case: &CaseSelection<'_>, results: &Results) -> Option<Stri
 }
 
 fn rows<'r>(case: &CaseSelection<'_>, results: &'r Results) -> Vec<Row<'r>> {
-    let of = |group: Group, method: Method| {
-        let mine = |s: &&Summary| s.series.case == case.case && s.series.method == method && s.group == group;
+    let of = |group: Group, method: &MethodName| {
+        let mine =
+            |s: &&Summary| s.series.case == case.case && s.series.method == *method && s.group == group;
         let figure = |s: &'r Summary| Some((&s.series, s.variance_over_bound?));
         let figures: Vec<_> = results.summaries.iter().filter(mine).filter_map(figure).collect();
         (!figures.is_empty()).then(|| Row { group, method: method.to_string(), figures })

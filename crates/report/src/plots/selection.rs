@@ -1,6 +1,6 @@
 //! Which part of a table one figure shows.
 
-use switchback_identify::Method;
+use switchback_study::MethodName;
 use switchback_study::results::{Cell, Group, Results};
 
 /// The cells of one case and method, in the order of the table.
@@ -8,7 +8,7 @@ pub(super) struct Selection<'r> {
     /// The case's name.
     pub(super) case: &'r str,
     /// The method.
-    pub(super) method: Method,
+    pub(super) method: &'r MethodName,
     /// Its cells.
     pub(super) cells: Vec<&'r Cell>,
 }
@@ -17,7 +17,7 @@ pub(super) struct Selection<'r> {
 pub(super) fn selections(results: &Results) -> Vec<Selection<'_>> {
     let mut found: Vec<Selection<'_>> = Vec::new();
     for cell in &results.cells {
-        let (case, method) = (cell.series.case.as_str(), cell.series.method);
+        let (case, method) = (cell.series.case.as_str(), &cell.series.method);
         match found.iter_mut().find(|s| s.case == case && s.method == method) {
             Some(selection) => selection.cells.push(cell),
             None => found.push(Selection { case, method, cells: vec![cell] }),

@@ -1,6 +1,6 @@
 //! Summaries condensed to one row of the table.
 
-use switchback_identify::Method;
+use switchback_study::MethodName;
 use switchback_study::results::{Fitted, Group, Results, Summary, Verdict};
 
 /// Curves of one case and method (and group, where there is room) in one row.
@@ -9,7 +9,7 @@ pub(crate) struct Row<'r> {
     /// Name of the case.
     pub case: &'r str,
     /// The method.
-    pub method: Method,
+    pub method: &'r MethodName,
     /// `None` where all groups share a row.
     pub group: Option<Group>,
     /// One entry a curve over N and group of parameters.
@@ -28,7 +28,7 @@ pub(crate) fn rows(results: &Results) -> Vec<Row<'_>> {
 fn gather(results: &Results, by_group: bool) -> Vec<Row<'_>> {
     let mut rows: Vec<Row<'_>> = Vec::new();
     for summary in &results.summaries {
-        let (case, method) = (summary.series.case.as_str(), summary.series.method);
+        let (case, method) = (summary.series.case.as_str(), &summary.series.method);
         let group = by_group.then_some(summary.group);
         match rows.iter_mut().find(|r| r.case == case && r.method == method && r.group == group) {
             Some(row) => row.summaries.push(summary),

@@ -155,15 +155,23 @@ fn precision(results: &Results) -> String {
 
 fn failures(results: &Results) -> String {
     let failed: Vec<_> = results.cells.iter().filter(|c| c.failures.count > 0).collect();
-    let Some(worst) = failed.iter().max_by_key(|c| c.failures.count) else { return String::new() };
     let mut methods: BTreeMap<&str, (usize, usize)> = BTreeMap::new();
     for cell in &results.cells {
         let (count, of) = methods.entry(cell.series.method.name()).or_default();
         *count += cell.failures.count;
         *of += cell.replicates;
     }
-    let methods = methods.iter().filter(|(_, (count, _))| *count > 0);
+    // Beside methods of others all are listed, those that never failed, too.
+    let has_foreign = results.cells.iter().any(|c| c.series.method.is_foreign());
+    let methods = methods.iter().filter(|(_, (count, _))| *count > 0 || has_foreign);
     let methods: Vec<String> = methods.map(|(name, (count, of))| format!("{name} {count} of {of}")).collect();
+    let Some(worst) = failed.iter().max_by_key(|c| c.failures.count) else {
+        return if has_foreign {
+            format!("Replicates without an estimate: {}.\n", methods.join(", "))
+        } else {
+            String::new()
+        };
+    };
     let number = results.cells.iter().position(|cell| cell == *worst).unwrap_or_default();
     let example = worst.failures.replicates.first().map_or_else(String::new, |replicate| {
         format!(" Look into one: switchback replay RESULTS {number}:{replicate}")

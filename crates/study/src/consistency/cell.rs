@@ -1,8 +1,10 @@
 //! What tables and verdicts need to know of a cell, whatever ran its replicates.
 
+use super::controls::ControlPlan;
 use super::sections::CellSums;
 use crate::results::{Group, Series};
 use switchback_identify::statistics::KnownControl;
+use switchback_noise::NoisePlan;
 
 /// One cell of a sweep: a curve at one number of samples.
 #[derive(Debug, Clone, PartialEq)]
@@ -28,6 +30,8 @@ pub(super) struct CellTheory {
     pub(super) control: Option<Vec<f64>>,
     /// The chance that the first-order part of an error lies within 1.96 of its standard deviations.
     pub(super) coverage: Option<Vec<f64>>,
+    /// Of a method of others: the controls, and the noise that they are sums of.
+    pub(super) controls: Option<(ControlPlan, NoisePlan)>,
 }
 
 impl CellTheory {

@@ -74,7 +74,7 @@ impl CellDesign {
         Series {
             case: case.name.clone(),
             border: case.borders[self.border].name.clone(),
-            method,
+            method: method.into(),
             points: self.setup.points,
             noise: self.sigma,
         }
@@ -148,7 +148,7 @@ impl MethodCase {
             parameters: parameters(case.order, setup, kind),
             truth: setup.truth(kind),
             lanes: setup.lanes(kind),
-            theory: kind.models_hysteresis() && (white || kind.folds()) && has_the_model(case, setup),
+            theory: kind.models_hysteresis() && (white || kind.folds()) && setup.has_the_model(case),
             expansions: Vec::new(),
         }
     }
@@ -185,13 +185,6 @@ impl MethodCase {
         let errors = estimates.zip(&self.truth).map(|((value, se), truth)| (value - truth, se)).collect();
         Outcome { errors, terms }
     }
-}
-
-/// Whether the paper's assumptions hold but for the colour of the noise: the right order, masked memory.
-fn has_the_model(case: &Case, setup: &Setup) -> bool {
-    case.order == case.system.order()
-        && case.spacing >= case.order
-        && (case.spacing >= 2 || setup.points <= 2)
 }
 
 fn parameters(order: usize, setup: &Setup, kind: PulseKind) -> Vec<ParameterName> {

@@ -1,6 +1,6 @@
 //! How long a replicate takes, before it is run.
 
-use crate::scenario::{Case, Coupling, Engine, Scenario};
+use crate::scenario::{Case, Coupling, Engine, ForeignMethod, Scenario};
 use switchback_identify::Method;
 
 /// Seconds of one thread for a sample of noise of one experiment, drawn and taken in by the pulse methods: 0.139 ms a replicate of 100,000
@@ -13,6 +13,12 @@ const SOLVED: f64 = 0.1e-6;
 
 /// Seconds of one thread for a sample of a cell of `free`: 53 ns in scenarios/any-record.toml, seven times as many where knots are refined.
 const FREE: f64 = 50e-9;
+
+/// Seconds of one thread for a question to a method of others: one that is quick.
+const ASKED: f64 = 0.5e-3;
+
+/// Seconds of one thread for a sample of a record in the open.
+const OPEN: f64 = 20e-9;
 
 /// The same of one replicate.
 pub(super) fn of_a_replicate(scenario: &Scenario) -> f64 {
@@ -34,7 +40,10 @@ fn of_case(scenario: &Scenario, case: &Case) -> f64 {
         (methods, ..) => samples * methods as f64,
     };
     let free = if sweep.methods.contains(&Method::Free) { samples } else { 0.0 };
-    PULSES * pulses + SOLVED * cells * parameters + FREE * free
+    let asked = |method: &ForeignMethod| if method.antithetic { 2.0 } else { 1.0 };
+    let asked = scenario.foreign().iter().map(asked).sum::<f64>();
+    let foreign = asked * (ASKED * series * sweep.samples.len() as f64 + OPEN * samples);
+    PULSES * pulses + SOLVED * cells * parameters + FREE * free + foreign
 }
 
 fn mean(points: &[usize]) -> f64 {

@@ -36,6 +36,17 @@ pub enum StudyError {
         /// What the method says.
         source: switchback_identify::free::FreeError,
     },
+    /// A method of others cannot be asked.
+    #[error(transparent)]
+    NoMethod(crate::foreign::ForeignError),
+    /// A method of others is a function that nobody gave.
+    #[error(
+        "method `{0}` is a function of whoever ran the study; give it again, as in study(…, methods={{\"{0}\": function}})"
+    )]
+    NobodyEstimates(
+        /// Its name.
+        String,
+    ),
     /// An experiment of the sweep cannot be built.
     #[error("case `{case}`, m = {points}: {reason}")]
     NoExperiment {

@@ -1,6 +1,7 @@
 //! Whether what the scenario promises came out.
 
 use super::intervals;
+use crate::MethodName;
 use crate::results::{Cell, Expectation, Fitted, Summary, Verdict};
 use crate::scenario::{Check, Scenario};
 use statrs::distribution::{ContinuousCDF, StudentsT};
@@ -20,17 +21,17 @@ const FREEDOM: f64 = (super::sections::SECTIONS - 1) as f64;
 pub(super) fn check(scenario: &Scenario, summaries: &[Summary], cells: &[Cell]) -> Vec<Expectation> {
     let mut expectations = Vec::new();
     for case in scenario.cases() {
-        let of_case = |method: Method| -> Vec<&Summary> {
-            summaries.iter().filter(|s| s.series.case == case.name && s.series.method == method).collect()
+        let of_case = |method: &MethodName| -> Vec<&Summary> {
+            summaries.iter().filter(|s| s.series.case == case.name && s.series.method == *method).collect()
         };
         let prefix = if scenario.cases().len() > 1 { format!("{}: ", case.name) } else { String::new() };
-        for &method in &case.expect.consistent {
+        for method in &case.expect.consistent {
             expectations.push(all_consistent(&prefix, method, &of_case(method)));
         }
-        for &method in &case.expect.inconsistent {
+        for method in &case.expect.inconsistent {
             expectations.push(found_inconsistent(&prefix, method, &of_case(method)));
         }
-        let rows: Vec<&Summary> = case.expect.consistent.iter().flat_map(|&m| of_case(m)).collect();
+        let rows: Vec<&Summary> = case.expect.consistent.iter().flat_map(of_case).collect();
         expectations
             .extend(case.expect.within_error.iter().map(|&check| within_error(&prefix, check, &rows)));
         let cells_of = |case: &str| cells.iter().filter(|c| c.series.case == case).collect::<Vec<_>>();
@@ -43,7 +44,7 @@ pub(super) fn check(scenario: &Scenario, summaries: &[Summary], cells: &[Cell]) 
     expectations
 }
 
-fn all_consistent(prefix: &str, method: Method, rows: &[&Summary]) -> Expectation {
+fn all_consistent(prefix: &str, method: &MethodName, rows: &[&Summary]) -> Expectation {
     let other = rows.iter().find(|s| s.verdict != Verdict::Consistent);
     Expectation {
         what: format!("{prefix}{method} is consistent"),
@@ -56,7 +57,7 @@ fn all_consistent(prefix: &str, method: Method, rows: &[&Summary]) -> Expectatio
 }
 
 /// A method is inconsistent if one of its parameter groups is, in every curve of the case.
-fn found_inconsistent(prefix: &str, method: Method, rows: &[&Summary]) -> Expectation {
+fn found_inconsistent(prefix: &str, method: &MethodName, rows: &[&Summary]) -> Expectation {
     let exposed =
         |s: &Summary| rows.iter().any(|r| r.series == s.series && r.verdict == Verdict::Inconsistent);
     let hidden = rows.iter().find(|s| !exposed(s));

@@ -50,7 +50,7 @@ pub(super) fn width(prefix: &str, bound: &Width, cells: &[&Cell], measure: &[&Ce
         let pairs = cells.iter().filter(|c| c.samples == samples).filter_map(|cell| {
             let alike = |other: &&&Cell| {
                 let (x, y) = (&cell.series, &other.series);
-                (&x.border, x.method, x.points, x.noise) == (&y.border, y.method, y.points, y.noise)
+                (&x.border, &x.method, x.points, x.noise) == (&y.border, &y.method, y.points, y.noise)
                     && cell.samples == other.samples
             };
             Some((cell, measure.iter().find(alike)?))

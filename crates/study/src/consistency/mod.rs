@@ -12,11 +12,14 @@ mod cell;
 mod cell_design;
 mod cell_group;
 mod cell_group_plan;
+mod control_sums;
+mod controls;
 mod cost;
 mod direct;
 mod error;
 mod execute;
 mod expectations;
+mod foreign_noise_group;
 mod free;
 mod intervals;
 mod judge;
@@ -32,21 +35,26 @@ mod run_state;
 mod sections;
 mod setup;
 mod single;
+mod strong_id;
 mod tabulate;
 mod tally;
 mod views;
 mod workload;
 
 use crate::Shard;
+use crate::foreign::{ForeignEstimator, Processes};
 use crate::results::{BorderCurve, Partial, Results, SCHEMA};
-use crate::scenario::{Coupling, Engine, Scenario};
+use crate::scenario::{Coupling, Engine, ForeignMethod, Scenario};
 use cell::{CellSpec, CellTheory};
 use direct::DirectGroup;
 use execute::Work;
+use foreign_noise_group::ForeignNoiseGroup;
 use free::FreeNoiseGroup;
 use noise_group::NoiseGroup;
 use run_state::Rule;
+use sections::CellShape;
 use std::ops::{ControlFlow, Range};
+use std::sync::{Arc, OnceLock};
 use switchback_io::output::sha256;
 use switchback_io::platform::platform;
 use workload::Workload;
@@ -62,7 +70,7 @@ pub use run_state::Keeper;
 pub(crate) use run_state::Origin;
 pub use run_state::RunState;
 pub use run_state::Snapshot;
-pub(crate) use run_state::Unusable;
+pub use run_state::Unusable;
 pub use single::Estimated;
 pub use single::Single;
 pub use single::SingleRecord;
@@ -73,6 +81,10 @@ pub struct Study<'s> {
     scenario: &'s Scenario,
     pulses: Vec<NoiseGroup>,
     free: Vec<FreeNoiseGroup>,
+    foreign: Vec<ForeignNoiseGroup>,
+    estimators: Vec<Arc<dyn ForeignEstimator>>,
+    /// Versions of the methods of others, once they have been asked.
+    versions: OnceLock<Vec<String>>,
     specs: Vec<CellSpec>,
     rule: Rule,
 }
@@ -93,15 +105,51 @@ impl<'s> Study<'s> {
     /// # Errors
     /// [`StudyError`] if a method or an experiment does not exist for some cell.
     pub fn plan(scenario: &'s Scenario) -> Result<Self, StudyError> {
+        Self::plan_with(scenario, Vec::new())
+    }
+
+    /// The same, where some of the methods of others are functions: in the order of the scenario, whoever estimates for each.
+    ///
+    /// # Errors
+    /// [`StudyError`] if a method or an experiment does not exist for some cell, or nobody estimates for a method.
+    pub fn plan_with(
+        scenario: &'s Scenario,
+        functions: Vec<Arc<dyn ForeignEstimator>>,
+    ) -> Result<Self, StudyError> {
+        let estimators = estimators(scenario, functions)?;
         let (pulses, free) = (noise_group::plan(scenario)?, free::plan(scenario)?);
         let of_pulses = pulses.iter().flat_map(|w| w.specs(scenario));
-        let specs = of_pulses.chain(free.iter().flat_map(|w| w.specs())).collect();
-        Ok(Self { scenario, pulses, free, specs, rule: Rule::of(scenario) })
+        let mut specs: Vec<CellSpec> = of_pulses.chain(free.iter().flat_map(|w| w.specs())).collect();
+        let foreign = foreign_noise_group::plan(scenario, &estimators, (pulses.len(), specs.len()))?;
+        specs.extend(foreign.iter().flat_map(ForeignNoiseGroup::specs));
+        let (rule, versions) = (Rule::of(scenario), OnceLock::new());
+        Ok(Self { scenario, pulses, free, foreign, estimators, versions, specs, rule })
+    }
+
+    /// Makes sure that the methods of others can be asked. To be called before replicates are run.
+    ///
+    /// # Errors
+    /// [`StudyError`] where one cannot.
+    pub fn begin_methods(&self) -> Result<(), StudyError> {
+        let versions = self.estimators.iter().map(|estimator| estimator.begin());
+        let versions = versions.collect::<Result<_, _>>().map_err(StudyError::NoMethod)?;
+        let _first = self.versions.set(versions);
+        Ok(())
     }
 
     /// Before the first replicate.
     pub fn begin(&self) -> RunState {
-        RunState::new(self.rule, &self.specs)
+        RunState::new(self.rule, self.shape(), self.versions.get().cloned())
+    }
+
+    /// What the sums of each cell hold.
+    fn shape(&self) -> Vec<CellShape> {
+        let ours = self.specs.len() - self.foreign.iter().map(Workload::cells).sum::<usize>();
+        let controls = std::iter::repeat_n(None, ours);
+        let controls = controls.chain(self.foreign.iter().flat_map(|w| w.shapes()).map(Some));
+        let shape =
+            |(spec, controls): (&CellSpec, _)| CellShape { parameters: spec.parameters.len(), controls };
+        self.specs.iter().zip(controls).map(shape).collect()
     }
 
     /// What the replicates are of: the scenario, but for their number where no precision is asked for; sources by their hash, on this platform.
@@ -110,8 +158,12 @@ impl<'s> Study<'s> {
         let replication = scenario.replication();
         let rule = replication.stopping.map(|stopping| (replication.replicates, stopping));
         let what = (scenario.cases(), scenario.sweep(), scenario.coupling(), scenario.engine(), rule);
+        let foreign = match scenario.foreign() {
+            [] => String::new(),
+            methods => format!(" {methods:?}"),
+        };
         Origin {
-            scenario: sha256(format!("{} {what:?}", scenario.seed())),
+            scenario: sha256(format!("{} {what:?}{foreign}", scenario.seed())),
             part: String::new(),
             program: sources.to_owned(),
             platform: platform(),
@@ -166,8 +218,9 @@ impl<'s> Study<'s> {
             Engine::Superposed => self.pulses.iter().map(|w| w as &dyn Workload).collect(),
             Engine::Direct => direct.iter().map(|w| w as &dyn Workload).collect(),
         };
+        let foreign = self.foreign.iter().map(|w| w as &dyn Workload);
         let workloads: Vec<&dyn Workload> =
-            pulses.into_iter().chain(self.free.iter().map(|w| w as &dyn Workload)).collect();
+            pulses.into_iter().chain(self.free.iter().map(|w| w as &dyn Workload)).chain(foreign).collect();
         run(Work { seed: scenario.seed(), workloads: &workloads })
     }
 
@@ -177,7 +230,11 @@ impl<'s> Study<'s> {
         let totals = run_state.tally.totals();
         let precise = run_state.precise(self.rule);
         let theories = self.theories();
-        let cells = tabulate::cells(specs, &theories, &totals, precise.as_deref());
+        let mut cells = tabulate::cells(specs, &theories, &totals, precise.as_deref());
+        if !self.foreign.is_empty() {
+            let ids = strong_id::strong_ids(scenario, specs, run_state.versions());
+            cells.iter_mut().zip(ids).for_each(|(cell, id)| cell.strong_id = Some(id));
+        }
         let views = views::of_cells(&theories, &totals);
         let summaries = judge::summaries(specs, &theories, &views, scenario.sweep().slope_from);
         let paired = (scenario.coupling() == Coupling::Shared)
@@ -211,13 +268,24 @@ impl<'s> Study<'s> {
     /// What theory says of each cell. Only results need it: a part of a study does without.
     fn theories(&self) -> Vec<CellTheory> {
         let of_pulses = self.pulses.iter().flat_map(NoiseGroup::theories);
-        of_pulses.chain(self.free.iter().flat_map(FreeNoiseGroup::theories)).collect()
+        let of_free = self.free.iter().flat_map(FreeNoiseGroup::theories);
+        of_pulses.chain(of_free).chain(self.foreign.iter().flat_map(ForeignNoiseGroup::theories)).collect()
+    }
+
+    /// The cells that share their noise, by their places among all: methods of others share that of the pulse methods.
+    fn cells_of_noise_groups(&self) -> Vec<Vec<usize>> {
+        let mut groups: Vec<Vec<usize>> =
+            self.cells_of_workloads().into_iter().map(Iterator::collect).collect();
+        let foreign = groups.split_off(self.pulses.len() + self.free.len());
+        groups.iter_mut().zip(foreign).for_each(|(group, more)| group.extend(more));
+        groups
     }
 
     /// Where the cells of each workload stand among all cells.
-    fn cells_of_noise_groups(&self) -> Vec<Range<usize>> {
+    fn cells_of_workloads(&self) -> Vec<Range<usize>> {
         let counts = self.pulses.iter().map(|group| group.cells().count());
         let counts = counts.chain(self.free.iter().map(Workload::cells));
+        let counts = counts.chain(self.foreign.iter().map(Workload::cells));
         let mut first = 0;
         counts
             .map(|count| {
@@ -235,12 +303,26 @@ impl<'s> Study<'s> {
 /// [`StudyError`] if a method or an experiment does not exist for some cell.
 pub fn run(scenario: &Scenario, command: String, progress: &dyn Progress) -> Result<Results, StudyError> {
     let study = Study::plan(scenario)?;
+    study.begin_methods()?;
     let mut run_state = study.begin();
     progress.planned(study.rule.forecast() as u64);
     match study.run(&mut run_state, progress, &mut ()) {
         Ended::Finished => Ok(study.results(&run_state, command)),
         Ended::Stopped => unreachable!("nobody stops it"),
     }
+}
+
+/// Who estimates for each method of others: processes, or the functions in their order.
+fn estimators(
+    scenario: &Scenario,
+    functions: Vec<Arc<dyn ForeignEstimator>>,
+) -> Result<Vec<Arc<dyn ForeignEstimator>>, StudyError> {
+    let mut functions = functions.into_iter();
+    let of = |method: &ForeignMethod| match Processes::of(method) {
+        Some(processes) => Ok(Arc::new(processes) as Arc<dyn ForeignEstimator>),
+        None => functions.next().ok_or_else(|| StudyError::NobodyEstimates(method.name.as_str().to_owned())),
+    };
+    scenario.foreign().iter().map(of).collect()
 }
 
 fn curves(scenario: &Scenario) -> Vec<BorderCurve> {

@@ -146,6 +146,7 @@ impl NoiseGroup {
                 bias: Some(theory.bias),
                 bound: Some(bound.expect("determined, as the method's own limit is")),
                 coverage: Some(cumulants.iter().map(|c| c.chance_within(normal_quantile_975())).collect()),
+                controls: None,
             }
         };
         let of_cell_design = |cell_design: &CellDesign| -> Vec<CellTheory> {

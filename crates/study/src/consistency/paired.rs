@@ -9,16 +9,14 @@ use crate::results::{
     Comparison, Group, Overall, Paired, PairedGroup, PairedParameter, Pairing, Series, Subject,
 };
 use rayon::prelude::*;
-use std::ops::Range;
 
-/// Every comparison; `noise groups` are the runs of cells that share their noise.
-pub(super) fn pairing(specs: &[CellSpec], views: &[CellViews], groups: &[Range<usize>]) -> Pairing {
+/// Every comparison; `groups` are the cells that share their noise, in their order.
+pub(super) fn pairing(specs: &[CellSpec], views: &[CellViews], groups: &[Vec<usize>]) -> Pairing {
     let table = Table { specs, views };
-    let mut pairs: Vec<Pair> =
-        groups.iter().flat_map(|group| table.pairs_of_methods(group.clone())).collect();
-    let borders: Vec<Pair> = groups.iter().flat_map(|group| table.pairs_of_borders(group.clone())).collect();
+    let mut pairs: Vec<Pair> = groups.iter().flat_map(|group| table.pairs_of_methods(group)).collect();
+    let borders: Vec<Pair> = groups.iter().flat_map(|group| table.pairs_of_borders(group)).collect();
     let largest = specs.iter().map(|s| s.samples).max().unwrap_or_default();
-    let mut overall = table.overall(&pairs, largest, |series| Subject::Method(series.method));
+    let mut overall = table.overall(&pairs, largest, |series| Subject::Method(series.method.clone()));
     overall.extend(table.overall(&borders, largest, |series| Subject::Border(series.border.clone())));
     pairs.extend(borders);
     Pairing { overall, comparisons: table.comparisons(&pairs, largest) }
@@ -51,10 +49,10 @@ struct Match<'a> {
 
 impl<'a> Table<'a> {
     /// Each parameter of a cell with the first method that estimates it too.
-    fn pairs_of_methods(&self, group: Range<usize>) -> Vec<Pair> {
-        let of_cell = |cell: usize| {
-            let before: Vec<usize> =
-                (group.start..cell).filter(|&over| self.differ_in_method(cell, over)).collect();
+    fn pairs_of_methods(&self, group: &[usize]) -> Vec<Pair> {
+        let of_cell = |(place, &cell): (usize, &usize)| {
+            let before = group[..place].iter().copied();
+            let before: Vec<usize> = before.filter(|&over| self.differ_in_method(cell, over)).collect();
             let mut pairs: Vec<Pair> = Vec::new();
             for k in 0..self.specs[cell].parameters.len() {
                 let first = before.iter().find_map(|&over| Some((over, self.twin(cell, k, over)?)));
@@ -66,19 +64,19 @@ impl<'a> Table<'a> {
             }
             pairs
         };
-        group.clone().into_par_iter().flat_map_iter(of_cell).collect()
+        group.par_iter().enumerate().flat_map_iter(of_cell).collect()
     }
 
     /// Each cell with the same of the first border.
-    fn pairs_of_borders(&self, group: Range<usize>) -> Vec<Pair> {
-        let of_cell = |cell: usize| {
-            let over = (group.start..cell).find(|&over| self.differ_in_border(cell, over))?;
+    fn pairs_of_borders(&self, group: &[usize]) -> Vec<Pair> {
+        let of_cell = |(place, &cell): (usize, &usize)| {
+            let over = group[..place].iter().copied().find(|&over| self.differ_in_border(cell, over))?;
             let parameters: Vec<(usize, usize)> = (0..self.specs[cell].parameters.len())
                 .filter_map(|k| Some((k, self.twin(cell, k, over)?)))
                 .collect();
             (!parameters.is_empty()).then_some(Pair { cell, over, parameters })
         };
-        group.clone().into_par_iter().filter_map(of_cell).collect()
+        group.par_iter().enumerate().filter_map(of_cell).collect()
     }
 
     fn differ_in_method(&self, cell: usize, over: usize) -> bool {

@@ -3,12 +3,11 @@
 mod bytes;
 
 pub(crate) use bytes::Origin;
-pub(crate) use bytes::Unusable;
+pub use bytes::Unusable;
 
 use super::batches::Batches;
-use super::cell::CellSpec;
 use super::execute::{Overseer, Progress, Work};
-use super::sections::CellSums;
+use super::sections::{CellShape, CellSums};
 use super::tally::Tally;
 use crate::Shard;
 use crate::scenario::{Replication, Scenario, Stopping};
@@ -22,6 +21,8 @@ pub struct RunState {
     pub(super) tally: Tally,
     /// Whether the scenario asks for a precision: rounds then end where their errors say.
     pub(super) in_rounds: bool,
+    /// Versions of the methods of others; nothing before they were asked for them.
+    pub(super) versions: Option<Vec<String>>,
 }
 
 /// The replicates between two looks at the stopping rule.
@@ -56,6 +57,7 @@ impl Keeper for () {
 pub struct Snapshot<'a> {
     pub(super) round: &'a Round,
     pub(super) tally: &'a Tally,
+    pub(super) versions: Option<&'a [String]>,
 }
 
 /// The rule by which a study has enough replicates.
@@ -67,11 +69,20 @@ pub(super) struct Rule {
 
 impl RunState {
     /// Before the first replicate.
-    pub(super) fn new(rule: Rule, specs: &[CellSpec]) -> Self {
-        let round = Round { replicates: 0..rule.first(), active: vec![true; specs.len()] };
-        let shape = specs.iter().map(|spec| spec.parameters.len()).collect();
+    pub(super) fn new(rule: Rule, shape: Vec<CellShape>, versions: Option<Vec<String>>) -> Self {
+        let round = Round { replicates: 0..rule.first(), active: vec![true; shape.len()] };
         let in_rounds = rule.replication.stopping.is_some();
-        Self { round, tally: Tally::new(rule.batches, shape), in_rounds }
+        Self { round, tally: Tally::new(rule.batches, shape), in_rounds, versions }
+    }
+
+    /// Versions of the methods of others, in the order of the scenario, as far as they are known.
+    pub(super) fn versions(&self) -> &[String] {
+        self.versions.as_deref().unwrap_or_default()
+    }
+
+    /// Whether the methods of others had other versions in another part.
+    pub fn differs_in_versions(&self, other: &Self) -> bool {
+        self.versions.as_ref().zip(other.versions.as_ref()).is_some_and(|(own, other)| own != other)
     }
 
     /// How many replicates have been run of all cells that took part.
@@ -93,7 +104,7 @@ impl RunState {
     #[must_use]
     pub fn emptied(&self) -> Self {
         let tally = Tally::new(self.tally.batches(), self.tally.shape().to_vec());
-        Self { round: self.round.clone(), tally, in_rounds: self.in_rounds }
+        Self { tally, ..self.clone() }
     }
 
     /// How many replicates of the round running are to be run, of a part or of all of it.
@@ -103,12 +114,13 @@ impl RunState {
 
     /// Adds the replicates of a part of the round running. Parts come in their order.
     pub fn add(&mut self, part: Self) {
+        self.versions = self.versions.take().or(part.versions);
         part.tally.into_nodes().for_each(|node| self.tally.add(node));
     }
 
     /// The same as it is kept.
     pub fn snapshot(&self) -> Snapshot<'_> {
-        Snapshot { round: &self.round, tally: &self.tally }
+        Snapshot { round: &self.round, tally: &self.tally, versions: self.versions.as_deref() }
     }
 
     /// The replicates of the round running that a part runs.
@@ -131,7 +143,8 @@ impl RunState {
     ) -> ControlFlow<()> {
         let left = self.remaining(&self.share(shard));
         let (progress, keeper) = watch;
-        let mut reported = Reported { round: &self.round, progress, keeper };
+        let versions = self.versions.as_deref();
+        let mut reported = Reported { round: &self.round, versions, progress, keeper };
         let pieces = self.tally.batches().pieces(left);
         work.run(pieces, &self.round.active, &mut self.tally, &mut reported)
     }
@@ -161,6 +174,7 @@ impl RunState {
 /// Passes on the news of the tally.
 struct Reported<'a> {
     round: &'a Round,
+    versions: Option<&'a [String]>,
     progress: &'a dyn Progress,
     keeper: &'a mut dyn Keeper,
 }
@@ -168,7 +182,7 @@ struct Reported<'a> {
 impl Overseer for Reported<'_> {
     fn added(&mut self, replicates: usize, tally: &Tally) -> ControlFlow<()> {
         self.progress.advanced(replicates as u64);
-        self.keeper.keep(&Snapshot { round: self.round, tally })
+        self.keeper.keep(&Snapshot { round: self.round, tally, versions: self.versions })
     }
 
     fn is_stopped(&self) -> bool {
@@ -239,10 +253,15 @@ fn excess(stopping: &Stopping, total: &CellSums) -> f64 {
     let worst = |ratio: &dyn Fn(&Performance) -> f64| {
         performances.iter().map(ratio).filter(|x| x.is_finite()).fold(0.0, f64::max)
     };
+    let sd = stopping.sd_relative_mcse.map_or(0.0, |allowed| worst(&|p| p.sd.mcse / p.sd.value / allowed));
+    let adjusted = total.controls().and_then(|controls| controls.adjusted(None, None));
+    if let (Some(allowed), Some(adjusted)) = (stopping.bias_mcse, &adjusted) {
+        let ratios = adjusted.iter().zip(&performances).map(|(a, p)| a.bias.mcse / p.sd.value / allowed);
+        return sd.max(ratios.filter(|x| x.is_finite()).fold(0.0, f64::max));
+    }
     let bias = stopping
         .bias_mcse
         .map_or(0.0, |allowed| worst(&|p| p.bias_controlled.unwrap_or(p.bias).mcse / p.sd.value / allowed));
-    let sd = stopping.sd_relative_mcse.map_or(0.0, |allowed| worst(&|p| p.sd.mcse / p.sd.value / allowed));
     bias.max(sd)
 }
 
@@ -261,7 +280,7 @@ mod tests {
         let stopping = Stopping { bias_mcse: None, sd_relative_mcse: Some(0.01), max_replicates: 100_000 };
         let first = rule(40, stopping);
         assert_eq!((first.first(), first.forecast()), (48, 5001));
-        let mut sums = CellSums::new(1);
+        let mut sums = CellSums::new(CellShape { parameters: 1, controls: None });
         let mut errors = ErrorSums::default();
         for error in (0..400).map(|r| f64::from(r % 2) - 0.5) {
             let (first_order, second_order, first_order_variance) = (None, 0.0, None);

@@ -1,5 +1,6 @@
 //! What the replicates of a cell left behind: sums, by section.
 
+use super::control_sums::{ControlShape, ControlSums, PairOfErrors};
 use serde::{Deserialize, Serialize};
 use switchback_identify::pulse::ErrorTerms;
 use switchback_identify::pulse::lanes::LANES;
@@ -103,21 +104,50 @@ pub(super) struct CellSums {
     halves: [LaneSums; 2],
     /// One a parameter, of all sections: counts add up exactly, in any order.
     intervals: Vec<IntervalCounts>,
+    /// Of a method of others.
+    controls: Option<ControlSums>,
     pub(super) runs: Runs,
 }
 
+/// What the sums of a cell hold.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) struct CellShape {
+    pub(super) parameters: usize,
+    /// Of a method of others.
+    pub(super) controls: Option<ControlShape>,
+}
+
 impl CellSums {
-    pub(super) fn new(parameters: usize) -> Self {
+    pub(super) fn new(shape: CellShape) -> Self {
+        let CellShape { parameters, controls } = shape;
         Self {
             halves: [0, 1].map(|_| LaneSums::new(parameters)),
             intervals: vec![IntervalCounts::default(); parameters],
+            controls: controls.map(|shape| ControlSums::new(shape, SECTIONS)),
             runs: Runs::default(),
         }
     }
 
-    /// Puts together what [`halves`](Self::halves), [`intervals`](Self::intervals) and `runs` hold.
-    pub(super) fn of(halves: [LaneSums; 2], intervals: Vec<IntervalCounts>, runs: Runs) -> Self {
-        Self { halves, intervals, runs }
+    /// Puts together what [`halves`](Self::halves), [`intervals`](Self::intervals), [`controls`](Self::controls) and `runs` hold.
+    pub(super) fn of(
+        halves: [LaneSums; 2],
+        intervals: Vec<IntervalCounts>,
+        controls: Option<ControlSums>,
+        runs: Runs,
+    ) -> Self {
+        Self { halves, intervals, controls, runs }
+    }
+
+    /// Sums for control variates, of a method of others.
+    pub(super) fn controls(&self) -> Option<&ControlSums> {
+        self.controls.as_ref()
+    }
+
+    /// Adds the controls and errors of a replicate to a section.
+    pub(super) fn push_controls(&mut self, section: usize, controls: &[f64], errors: PairOfErrors<'_>) {
+        if let Some(sums) = &mut self.controls {
+            sums.push(section, controls, errors);
+        }
     }
 
     pub(super) fn halves(&self) -> &[LaneSums; 2] {
@@ -165,6 +195,9 @@ impl CellSums {
     pub(super) fn merge(&mut self, other: &Self) {
         self.halves.iter_mut().zip(&other.halves).for_each(|(into, from)| into.merge(from));
         self.count(&other.intervals);
+        if let Some((into, from)) = self.controls.as_mut().zip(other.controls.as_ref()) {
+            into.merge(from);
+        }
         self.runs.merge(&other.runs);
     }
 

@@ -147,6 +147,30 @@ impl Setup {
         self.experiments[experiment].record_input(samples)
     }
 
+    /// Samples before `t = 0` of the records that others estimate from: the lags of the first, and the move before them.
+    pub(super) fn lead(&self) -> usize {
+        self.designs[0].order + 1
+    }
+
+    /// The input of an experiment that repeats, from [`lead`](Self::lead) samples before `t = 0` on.
+    pub(super) fn periodic_input(&self, experiment: usize, samples: usize) -> Vec<f64> {
+        let before = self.lead().next_multiple_of(self.period());
+        let v = self.input(experiment, before + samples);
+        v[1 + before - self.lead()..].to_vec()
+    }
+
+    /// The noise-free output of an experiment, over one period.
+    pub(super) fn response(&self, experiment: usize) -> &[f64] {
+        &self.responses[experiment]
+    }
+
+    /// Whether the paper's assumptions hold but for the colour of the noise: the right order, masked memory.
+    pub(super) fn has_the_model(&self, case: &Case) -> bool {
+        case.order == case.system.order()
+            && case.spacing >= case.order
+            && (case.spacing >= 2 || self.points <= 2)
+    }
+
     /// The statistics of both experiments with the noise of one replicate.
     pub(super) fn data(&self, sigma: f64, noise: [&NoiseMoments; 2]) -> [PulseData; 2] {
         [0, 1].map(|k| superpose(&self.designs[k], &self.responses[k], sigma, noise[k]))

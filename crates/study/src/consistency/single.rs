@@ -1,6 +1,7 @@
 //! One replicate alone, run as it was in the study: to look into a failure, or an estimate that is far off.
 
 use super::execute::{Overseer, Work};
+use super::foreign_noise_group::ForeignNoiseGroup;
 use super::replay::{ReplayedExperiment, ReplayedRecords, records};
 use super::sections::CellSums;
 use super::tally::Tally;
@@ -39,8 +40,7 @@ pub struct Estimated {
 impl Study<'_> {
     /// Runs one replicate, by number, in every cell: the same noise and the same arithmetic as in the study. In the order of the cells.
     pub fn replicate(&self, replicate: usize) -> Vec<Single> {
-        let shape = self.specs.iter().map(|spec| spec.parameters.len()).collect();
-        let mut tally = Tally::new(self.rule.batches(), shape);
+        let mut tally = Tally::new(self.rule.batches(), self.shape());
         let all = vec![true; self.specs.len()];
         let run = |work: Work<'_>| {
             let pieces = iter::once(replicate..replicate + 1);
@@ -80,6 +80,11 @@ impl Study<'_> {
                 return Ok(vec![SingleRecord { name: "record", v, y }]);
             }
             before += group.cells();
+        }
+        let of_foreign = |group: &ForeignNoiseGroup| group.records(cell, self.scenario.seed(), replicate);
+        if let Some(found) = self.foreign.iter().find_map(of_foreign) {
+            let names = ["descendant", "ascendant"].into_iter();
+            return Ok(names.zip(found).map(|(name, (v, y))| SingleRecord { name, v, y }).collect());
         }
         let is_wanted = |records: &ReplayedRecords| {
             let Series { case, border, points, noise, .. } = &spec.series;

@@ -2,9 +2,10 @@
 
 use super::cell::{CellSpec, CellTheory};
 use super::sections::{CellSums, Runs};
+use super::views::performances;
 use crate::results::{Cell, Failures, Group, Intervals, Measured, Parameter};
 use rayon::prelude::*;
-use switchback_identify::statistics::{self, ErrorSums, IntervalCounts};
+use switchback_identify::statistics::{self, IntervalCounts, Performance};
 
 /// One entry a cell, in their order.
 pub(super) fn cells(
@@ -17,17 +18,28 @@ pub(super) fn cells(
         .par_iter()
         .enumerate()
         .map(|(index, spec)| {
-            let sums = totals[index].parameters(None);
             let runs = &totals[index].runs;
-            let parameters =
-                sums.iter().enumerate().map(|(k, sums)| parameter((spec, &theories[index]), k, sums));
+            let performances = performances(&theories[index], &totals[index], None);
+            let intervals = intervals(spec, &totals[index], &performances);
+            let estimates = runs.replicates - runs.failed;
+            let scores = totals[index]
+                .controls()
+                .filter(|_| estimates > 1)
+                .map(|sums| sums.interval_scores(estimates));
+            let score =
+                |k: usize| scores.as_ref().and_then(|scores| Measured::new(scores[k].value, scores[k].mcse));
+            let parameters = performances.into_iter().enumerate().map(|(k, performance)| Parameter {
+                interval_score: score(k),
+                ..parameter((spec, &theories[index]), k, performance)
+            });
             Cell {
                 series: spec.series.clone(),
                 samples: spec.samples,
+                strong_id: None,
                 parameters: parameters.collect(),
                 replicates: runs.replicates,
                 precise: precise.map(|precise| precise[index]),
-                intervals: intervals(spec, &totals[index]),
+                intervals,
                 failures: failures(runs),
             }
         })
@@ -35,10 +47,13 @@ pub(super) fn cells(
 }
 
 /// One entry a group that has parameters.
-fn intervals(spec: &CellSpec, total: &CellSums) -> Vec<Intervals> {
+fn intervals(spec: &CellSpec, total: &CellSums, performances: &[Option<Performance>]) -> Vec<Intervals> {
+    // Without standard errors there are no intervals.
+    let has_errors = |k: usize| performances[k].is_none_or(|p| p.model_sd.value.is_finite());
     let of_group = |group: Group| {
         let mut counts: Option<IntervalCounts> = None;
-        for (_, more) in spec.parameters.iter().zip(total.intervals()).filter(|(p, _)| p.group == group) {
+        let of_parameters = spec.parameters.iter().zip(total.intervals()).enumerate();
+        for (_, (_, more)) in of_parameters.filter(|(k, (p, _))| p.group == group && has_errors(*k)) {
             counts.get_or_insert_default().merge(more);
         }
         counts.map(|counts| Intervals { group, below: counts.below, above: counts.above })
@@ -58,11 +73,14 @@ fn failures(runs: &Runs) -> Failures {
     }
 }
 
-fn parameter((spec, theory): (&CellSpec, &CellTheory), k: usize, sums: &ErrorSums) -> Parameter {
+fn parameter(
+    (spec, theory): (&CellSpec, &CellTheory),
+    k: usize,
+    performance: Option<Performance>,
+) -> Parameter {
     let at = |values: &Option<Vec<f64>>| values.as_ref().map(|v| v[k]);
     let theory_sd = at(&theory.sd);
     let name = &spec.parameters[k];
-    let performance = sums.performance(theory.known(k));
     let measured = |m: statistics::Measured| Measured::new(m.value, m.mcse);
     Parameter {
         name: name.name.clone(),
@@ -77,6 +95,7 @@ fn parameter((spec, theory): (&CellSpec, &CellTheory), k: usize, sums: &ErrorSum
         mse: performance.and_then(|p| measured(p.mse)),
         coverage: performance.and_then(|p| measured(p.coverage)),
         coverage_controlled: performance.and_then(|p| p.coverage_controlled).and_then(measured),
+        interval_score: None,
         model_sd: performance.and_then(|p| measured(p.model_sd)),
         model_sd_relative_error: performance.and_then(|p| measured(p.model_sd_relative_error)),
         theory_bias: at(&theory.bias),

@@ -5,7 +5,7 @@
 //! depend on their order, and this one knows of no shards and no interruptions.
 
 use super::batches::Batches;
-use super::sections::CellSums;
+use super::sections::{CellShape, CellSums};
 use rayon::prelude::*;
 use std::ops::Range;
 
@@ -27,13 +27,13 @@ impl Node {
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Tally {
     batches: Batches,
-    /// Parameters, one number a cell.
-    shape: Vec<usize>,
+    /// What the sums of each cell hold.
+    shape: Vec<CellShape>,
     nodes: Vec<Node>,
 }
 
 impl Tally {
-    pub(super) fn new(batches: Batches, shape: Vec<usize>) -> Self {
+    pub(super) fn new(batches: Batches, shape: Vec<CellShape>) -> Self {
         Self { batches, shape, nodes: Vec::new() }
     }
 
@@ -41,7 +41,7 @@ impl Tally {
         self.batches
     }
 
-    pub(super) fn shape(&self) -> &[usize] {
+    pub(super) fn shape(&self) -> &[CellShape] {
         &self.shape
     }
 
@@ -66,7 +66,7 @@ impl Tally {
         };
         self.nodes.pop_if(goes_on).unwrap_or_else(|| Node {
             range: piece.start..piece.start,
-            cells: self.shape.iter().map(|&parameters| CellSums::new(parameters)).collect(),
+            cells: self.shape.iter().map(|&shape| CellSums::new(shape)).collect(),
         })
     }
 
@@ -96,8 +96,8 @@ impl Tally {
 
     /// The sums over all replicates, one a cell.
     pub(super) fn totals(&self) -> Vec<CellSums> {
-        let of_cell = |(cell, &parameters): (usize, &usize)| {
-            let mut total = CellSums::new(parameters);
+        let of_cell = |(cell, &shape): (usize, &CellShape)| {
+            let mut total = CellSums::new(shape);
             self.nodes.iter().for_each(|node| total.merge(&node.cells[cell]));
             total
         };
@@ -157,7 +157,7 @@ mod tests {
             end in 1..1500_usize, mut cuts in prop::collection::vec(0..1500_usize, 0..6), of in 1..30_usize,
         ) {
             let batches = Batches::with_size(32);
-            let empty = Tally::new(batches, vec![1]);
+            let empty = Tally::new(batches, vec![CellShape { parameters: 1, controls: None }]);
             let mut whole = empty.clone();
             run(&mut whole, 0..end);
             prop_assert_eq!(whole.first_break(end), None);
@@ -184,11 +184,11 @@ mod tests {
 
     #[test]
     fn breaks_are_found() {
-        let mut tally = Tally::new(Batches::with_size(16), vec![1]);
+        let mut tally = Tally::new(Batches::with_size(16), vec![CellShape { parameters: 1, controls: None }]);
         assert_eq!(tally.first_break(48), Some((0, 48)));
         run(&mut tally, 16..32);
         assert_eq!(tally.first_break(48), Some((0, 16)));
-        let mut tally = Tally::new(Batches::with_size(16), vec![1]);
+        let mut tally = Tally::new(Batches::with_size(16), vec![CellShape { parameters: 1, controls: None }]);
         run(&mut tally, 0..20);
         assert_eq!(tally.first_break(48), Some((20, 48)));
         run(&mut tally, 20..48);

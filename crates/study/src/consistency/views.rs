@@ -33,6 +33,31 @@ pub(super) struct CellViews {
     without: Vec<Vec<Option<Figures>>>,
 }
 
+/// The measures of each parameter of a cell in a view; those of methods of others with control variates that are adjusted by regression.
+pub(super) fn performances(theory: &CellTheory, total: &CellSums, view: View) -> Vec<Option<Performance>> {
+    let sums = total.parameters(view);
+    let of = |(k, sums): (usize, &ErrorSums)| sums.performance(theory.known(k));
+    let mut found: Vec<Option<Performance>> = sums.iter().enumerate().map(of).collect();
+    let Some((controls, (plan, noise))) = total.controls().zip(theory.controls.as_ref()) else {
+        return found;
+    };
+    let covariance = plan.covariance(noise);
+    let adjusted = controls.adjusted(view, Some(&covariance)).unwrap_or_default();
+    // Of all replicates but a section nobody asks for an error.
+    let errors = view.is_none().then(|| controls.errors_of_sd(&covariance)).flatten();
+    for (k, (found, adjusted)) in found.iter_mut().zip(adjusted).enumerate() {
+        let Some(found) = found else { continue };
+        found.bias_controlled = Some(adjusted.bias);
+        let mcse = errors.as_ref().map_or(0.0, |errors| errors[k]);
+        found.sd_controlled = adjusted.sd.map(|value| statistics::Measured { value, mcse });
+    }
+    for found in found.iter_mut().flatten().filter(|found| !found.model_sd.value.is_finite()) {
+        // Without standard errors there are no intervals.
+        found.coverage.value = f64::NAN;
+    }
+    found
+}
+
 /// One entry a cell.
 pub(super) fn of_cells(theories: &[CellTheory], totals: &[CellSums]) -> Vec<CellViews> {
     theories.par_iter().zip(totals).map(|(theory, total)| CellViews::new(theory, total)).collect()
@@ -41,9 +66,8 @@ pub(super) fn of_cells(theories: &[CellTheory], totals: &[CellSums]) -> Vec<Cell
 impl CellViews {
     fn new(theory: &CellTheory, total: &CellSums) -> Self {
         let figures = |view: View| {
-            let sums = total.parameters(view);
-            let of = |(k, sums): (usize, &ErrorSums)| sums.performance(theory.known(k)).map(Figures::from);
-            sums.iter().enumerate().map(of).collect::<Vec<_>>()
+            let performances = performances(theory, total, view);
+            performances.into_iter().map(|found| found.map(Figures::from)).collect::<Vec<_>>()
         };
         let whole = figures(None);
         // A section without a replicate shows nothing of the spread.

@@ -13,6 +13,10 @@ pub struct Cell {
     pub series: Series,
     /// `N`: regression samples of each experiment.
     pub samples: usize,
+    /// What shows that two cells are the same: a hash of system, design, method and versions. Of studies with methods of others.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(with = "String")]
+    pub strong_id: Option<String>,
     /// Replicates run, failed ones included.
     pub replicates: usize,
     /// Whether they are as precise as the scenario asks; absent where it does not ask.
@@ -88,6 +92,11 @@ pub struct Parameter {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(with = "Measured")]
     pub coverage_controlled: Option<Measured>,
+    /// Mean score of the 95 % intervals: the width, and 40 times what the truth lies outside; least for intervals that are narrow and right. Of
+    /// methods of others that report standard errors.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(with = "Measured")]
+    pub interval_score: Option<Measured>,
     /// Root mean square of the standard errors the method reports.
     pub model_sd: Option<Measured>,
     /// `model_sd / sd − 1`.

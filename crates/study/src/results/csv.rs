@@ -47,13 +47,28 @@ const SUBJECTS: [(&str, bool); 2] = [("method", true), ("border", false)];
 /// stand at the largest `N` alone; `…_unpaired_mcse` is the error that independent runs would leave.
 pub fn to_csv(results: &Results) -> String {
     let mut writer = csv::Writer::from_writer(Vec::new());
-    writer.write_record(header()).expect("writing to memory");
+    // Only studies with methods of others have these.
+    let has_ids = results.cells.iter().any(|cell| cell.strong_id.is_some());
+    let more = |fields: Vec<String>, own: [String; 3]| {
+        fields.into_iter().chain(own.into_iter().filter(move |_| has_ids))
+    };
+    writer.write_record(more(header(), FOREIGN.map(str::to_owned))).expect("writing to memory");
     for cell in &results.cells {
         for parameter in &cell.parameters {
-            writer.write_record(row(cell, parameter, results.paired.as_ref())).expect("writing to memory");
+            let fields = row(cell, parameter, results.paired.as_ref());
+            writer.write_record(more(fields, foreign(cell, parameter))).expect("writing to memory");
         }
     }
     String::from_utf8(writer.into_inner().expect("writing to memory")).expect("every field is UTF-8")
+}
+
+/// Columns of studies with methods of others.
+const FOREIGN: [&str; 3] = ["strong_id", "interval_score", "interval_score_mcse"];
+
+fn foreign(cell: &Cell, parameter: &Parameter) -> [String; 3] {
+    let number =
+        |of: fn(&Measured) -> f64| parameter.interval_score.map_or_else(String::new, |m| of(&m).to_string());
+    [cell.strong_id.clone().unwrap_or_default(), number(Measured::value), number(Measured::mcse)]
 }
 
 fn header() -> Vec<String> {

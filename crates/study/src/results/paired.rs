@@ -2,10 +2,10 @@
 
 use super::measured::rounded;
 use super::{Cell, Group, Parameter, Series};
+use crate::MethodName;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::fmt;
-use switchback_identify::Method;
 
 /// What methods and borders are to each other on the same noise: replicate `r` of every cell of a case sees the same unit noise (common
 /// random numbers), so what the noise does to both sides of a comparison cancels.
@@ -52,7 +52,7 @@ pub struct Overall {
 #[serde(rename_all = "kebab-case")]
 pub enum Subject {
     /// A method.
-    Method(Method),
+    Method(MethodName),
     /// The border of that name.
     Border(String),
 }

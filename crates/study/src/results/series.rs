@@ -1,9 +1,9 @@
 //! Which cells belong on one curve.
 
+use crate::MethodName;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::fmt;
-use switchback_identify::Method;
 
 /// What the cells of one curve over `N` share.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -14,7 +14,7 @@ pub struct Series {
     /// Name of the border.
     pub border: String,
     /// The method.
-    pub method: Method,
+    pub method: MethodName,
     /// Points `m` on each border.
     pub points: usize,
     /// Standard deviation of the noise, output units.
@@ -49,6 +49,16 @@ pub enum Group {
 impl Group {
     /// Every group, in the order of tables and figures.
     pub const ALL: [Self; 4] = [Self::A, Self::B, Self::Descending, Self::Ascending];
+
+    /// The name used in files.
+    pub(crate) fn name(self) -> &'static str {
+        match self {
+            Self::A => "a",
+            Self::B => "b",
+            Self::Descending => "descending",
+            Self::Ascending => "ascending",
+        }
+    }
 
     /// What tables and figures call it.
     pub fn label(self) -> &'static str {

@@ -1,6 +1,6 @@
 //! What a scenario says must come out.
 
-use super::Method;
+use crate::MethodName;
 
 /// The outcome a scenario promises; a promise that is not kept ends the run with exit code 1.
 ///
@@ -8,9 +8,9 @@ use super::Method;
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Expect {
     /// Methods whose every verdict must be consistent.
-    pub consistent: Vec<Method>,
+    pub consistent: Vec<MethodName>,
     /// Methods that must be found inconsistent.
-    pub inconsistent: Vec<Method>,
+    pub inconsistent: Vec<MethodName>,
     /// Measures of the `consistent` methods that must agree with theory within Monte-Carlo error.
     pub within_error: Vec<Check>,
     /// How often the intervals must hold the truth, at every `N`.

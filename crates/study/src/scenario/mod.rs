@@ -8,6 +8,7 @@ mod border_kind;
 mod convert;
 mod error;
 mod expect;
+mod foreign_method;
 mod read;
 mod take;
 #[cfg(test)]
@@ -19,6 +20,8 @@ pub use expect::Check;
 pub use expect::Coverage;
 pub use expect::Expect;
 pub use expect::Width;
+pub use foreign_method::ForeignMethod;
+pub use foreign_method::Program;
 pub(crate) use switchback_identify::Method;
 
 use schemars::JsonSchema;
@@ -39,6 +42,7 @@ pub struct Scenario {
     labels: Labels,
     cases: Vec<Case>,
     sweep: Sweep,
+    foreign: Vec<ForeignMethod>,
     source: serde_json::Value,
 }
 
@@ -228,7 +232,7 @@ pub struct Sweep {
     pub samples: Vec<usize>,
     /// Numbers of points `m` visited on each border; positive, distinct.
     pub points: Vec<usize>,
-    /// Methods, distinct.
+    /// Methods of ours, distinct.
     pub methods: Vec<Method>,
     /// The least `N` of a fitted slope, one of `samples`.
     pub slope_from: usize,
@@ -303,6 +307,18 @@ impl Scenario {
     /// The grid.
     pub fn sweep(&self) -> &Sweep {
         &self.sweep
+    }
+
+    /// The methods of others.
+    pub fn foreign(&self) -> &[ForeignMethod] {
+        &self.foreign
+    }
+
+    /// The same scenario with more methods of others.
+    #[must_use]
+    pub fn with_methods(mut self, more: impl IntoIterator<Item = ForeignMethod>) -> Self {
+        self.foreign.extend(more);
+        self
     }
 
     /// The file's content as written, for the results to echo.

@@ -17,6 +17,8 @@ pub(super) struct WireScenario {
     pub(super) system: Spanned<WireSystem>,
     #[serde(default)]
     pub(super) case: Vec<WireCase>,
+    #[serde(default)]
+    pub(super) method: Vec<WireMethod>,
     pub(super) sweep: WireSweep,
     #[serde(default)]
     pub(super) expect: WireExpect,
@@ -66,6 +68,17 @@ pub(super) struct WireDisturbance {
     pub(super) kind: Spanned<String>,
     pub(super) ar: Option<Spanned<Vec<f64>>>,
     pub(super) ma: Option<Spanned<Vec<f64>>>,
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct WireMethod {
+    pub(super) name: Spanned<String>,
+    pub(super) command: Spanned<Vec<Spanned<String>>>,
+    pub(super) parameters: Option<Spanned<Vec<Spanned<String>>>>,
+    pub(super) patience: Option<Spanned<f64>>,
+    pub(super) antithetic: Option<bool>,
+    pub(super) workers: Option<Spanned<usize>>,
 }
 
 #[derive(Debug, Deserialize)]

@@ -11,7 +11,7 @@ use miette::IntoDiagnostic;
 use std::path::{Path, PathBuf};
 use switchback_io::provenance::{PROVENANCE_FILE, Provenance};
 use switchback_study::checkpoint::Checkpoint;
-use switchback_study::consistency::{RunState, Study};
+use switchback_study::consistency::{RunState, Study, Unusable};
 use switchback_study::parts::{MergeError, check_whole};
 
 /// Adds parts up in the order of one run; where a precision is asked for and not reached, shows what to run next, once what there is has been
@@ -81,7 +81,11 @@ fn added_up(parts: &[Part], study: &Study<'_>) -> Result<RunState, MergeError> {
     let round = run_state.clone();
     check_whole(&parts.iter().filter_map(Part::piece).collect::<Vec<_>>())?;
     for part in parts {
-        run_state.add(part.run_state_in(&round, study)?);
+        let more = part.run_state_in(&round, study)?;
+        if run_state.differs_in_versions(&more) {
+            return Err(MergeError::Unusable { folder: name(part), why: Unusable::OtherMethod });
+        }
+        run_state.add(more);
     }
     match run_state.missing() {
         None => Ok(run_state),

@@ -54,9 +54,10 @@ pub(crate) fn run(scenario: &Scenario, order: Order<'_>) -> CommandResult {
 
 fn run_whole(scenario: &Scenario, order: Order<'_>) -> CommandResult {
     let provenance = Provenance::begin(BUILD, order.threads.at_once());
+    let study = order.threads.install(|| Study::plan(scenario))?.into_diagnostic()?;
+    study.begin_methods().into_diagnostic()?;
     let default = || Path::new("reports").join(scenario.name());
     let folder = order.force.claim(&order.out.map_or_else(default, Path::to_owned), &FILES)?;
-    let study = order.threads.install(|| Study::plan(scenario))?.into_diagnostic()?;
     let mut kept = Checkpoint::new(folder.path(), study.origin(BUILD.study_sources), interrupt::is_wished);
     let mut run_state = taken_up(&kept, &study.begin(), order.quiet)?;
     let meter = Meter::new(order.quiet);
@@ -84,6 +85,7 @@ fn run_part(scenario: &Scenario, shard: Shard, order: Order<'_>) -> CommandResul
     let default = || Path::new("reports").join(format!("{}-part-{number}-of-{of}", scenario.name()));
     let out = order.out.map_or_else(default, Path::to_owned);
     let study = order.threads.install(|| Study::plan(scenario))?.into_diagnostic()?;
+    study.begin_methods().into_diagnostic()?;
     let begin = match order.from {
         Some(folder) => Part::read(folder)?.run_state(&study)?.emptied(),
         None => study.begin(),

@@ -130,7 +130,7 @@ impl CellDesign {
                 series: Series {
                     case: of.case.name.clone(),
                     border: of.border.name.clone(),
-                    method: Method::Free,
+                    method: Method::Free.into(),
                     points: on.points,
                     noise: sigma,
                 },

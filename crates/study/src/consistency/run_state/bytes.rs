@@ -3,7 +3,8 @@
 
 use super::{Round, RunState, Snapshot};
 use crate::Shard;
-use crate::consistency::sections::{CellSums, Runs};
+use crate::consistency::control_sums::ControlSums;
+use crate::consistency::sections::{CellShape, CellSums, Runs, SECTIONS};
 use crate::consistency::tally::{Node, Tally};
 use serde::{Deserialize, Serialize};
 use sha2::{Digest, Sha256};
@@ -39,6 +40,12 @@ struct Head {
     active: Vec<bool>,
     /// By cell: its parameters.
     shape: Vec<usize>,
+    /// By cell: linear and quadratic controls, and whether replicates have partners; nothing without methods of others.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    controls: Vec<Option<(usize, usize, bool)>>,
+    /// Versions of the methods of others.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    versions: Option<Vec<String>>,
     nodes: Vec<NodeHead>,
 }
 
@@ -54,7 +61,7 @@ const HASH: usize = 32;
 impl Snapshot<'_> {
     /// The file.
     pub fn to_bytes(&self, origin: &Origin) -> Vec<u8> {
-        let Self { round, tally } = self;
+        let Self { round, tally, .. } = self;
         let head = |node: &Node| NodeHead {
             replicates: node.range.clone(),
             runs: node.cells.iter().map(|cell| cell.runs.clone()).collect(),
@@ -65,7 +72,9 @@ impl Snapshot<'_> {
             batch: tally.batches().size(),
             round: round.replicates.clone(),
             active: round.active.clone(),
-            shape: tally.shape().to_vec(),
+            shape: tally.shape().iter().map(|shape| shape.parameters).collect(),
+            controls: controls(tally.shape()),
+            versions: self.versions.map(<[String]>::to_vec).filter(|versions| !versions.is_empty()),
             nodes: tally.nodes().iter().map(head).collect(),
         };
         let mut bytes = serde_json::to_vec(&head).expect("names and numbers are JSON");
@@ -74,6 +83,7 @@ impl Snapshot<'_> {
             cell.halves().iter().for_each(|half| half.write(&mut bytes));
             let counts = cell.intervals().iter().flat_map(|counts| counts.below.iter().chain(&counts.above));
             bytes.extend(counts.flat_map(|count| count.to_le_bytes()));
+            cell.controls().into_iter().for_each(|controls| controls.write(&mut bytes));
         }
         let hash = Sha256::digest(&bytes);
         bytes.extend_from_slice(&hash);
@@ -96,6 +106,9 @@ pub enum Unusable {
     /// Other sources made it, or these on another platform.
     #[error("was made by another version of the program, or on another platform")]
     OtherProgram,
+    /// A method of others had another version.
+    #[error("is of another version of a method that the scenario names")]
+    OtherMethod,
     /// It has more replicates than the scenario asks for.
     #[error("has more replicates than are asked for")]
     TooMany,
@@ -122,16 +135,26 @@ impl RunState {
             return Err(Unusable::OtherScenario);
         }
         let tally = self.tally;
-        if head.origin != *origin || head.batch != tally.batches().size() || head.shape != tally.shape() {
+        let is_alike = head.shape.iter().copied().eq(tally.shape().iter().map(|shape| shape.parameters))
+            && head.controls == controls(tally.shape());
+        if head.origin != *origin || head.batch != tally.batches().size() || !is_alike {
             return Err(Unusable::OtherProgram);
         }
-        let mut filled = Tally::new(tally.batches(), head.shape);
+        let versions = head.versions.or_else(|| head.controls.is_empty().then(Vec::new));
+        if self.versions.as_ref().zip(versions.as_ref()).is_some_and(|(own, found)| own != found) {
+            return Err(Unusable::OtherMethod);
+        }
+        let mut filled = Tally::new(tally.batches(), tally.shape().to_vec());
         for NodeHead { replicates, runs } in head.nodes {
-            let cell = |(runs, &parameters): (Runs, &usize)| {
+            let cell = |(runs, &CellShape { parameters, controls }): (Runs, &CellShape)| {
                 let mut half = || LaneSums::read(parameters, &mut sums);
                 let halves = [half()?, half()?];
                 let intervals = (0..parameters).map(|_| counts(&mut sums)).collect::<Option<_>>()?;
-                Some(CellSums::of(halves, intervals, runs))
+                let controls = match controls {
+                    None => None,
+                    Some(shape) => Some(ControlSums::read((shape, SECTIONS), &mut sums)?),
+                };
+                Some(CellSums::of(halves, intervals, controls, runs))
             };
             let cells: Option<Vec<CellSums>> = runs.into_iter().zip(tally.shape()).map(cell).collect();
             filled.add(Node { range: replicates, cells: cells.ok_or(Unusable::Damaged)? });
@@ -145,7 +168,17 @@ impl RunState {
             }
             round.replicates.end = asked;
         }
-        Ok(Self { round, tally: filled, in_rounds: self.in_rounds })
+        Ok(Self { round, tally: filled, in_rounds: self.in_rounds, versions: self.versions.or(versions) })
+    }
+}
+
+/// The controls of cells as they are written; nothing where no cell has any.
+fn controls(shape: &[CellShape]) -> Vec<Option<(usize, usize, bool)>> {
+    let written = |shape: &CellShape| shape.controls.map(|c| (c.linear, c.quadratic, c.is_paired));
+    if shape.iter().all(|shape| shape.controls.is_none()) {
+        Vec::new()
+    } else {
+        shape.iter().map(written).collect()
     }
 }
 

@@ -2,13 +2,13 @@
 
 use super::check::{at_most, distinct, in_one_line, unknown};
 use super::expect::expect;
+use crate::MethodName;
 use crate::scenario::border::WireBorder;
 use crate::scenario::error::Fault;
 use crate::scenario::wire::{WireCase, WireScenario, WireSystem, WireSystemOverride};
 use crate::scenario::{Border, Case, Disturbance, Expect, Fit, Knots};
 use std::ops::Range;
 use std::sync::Arc;
-use switchback_identify::Method;
 use switchback_io::input::TwoNumbers;
 use switchback_model::hysteresis::Interval;
 use switchback_model::linear::{LinearSystem, is_stable};
@@ -18,7 +18,7 @@ pub(super) fn cases(
     wire: &WireScenario,
     borders: &[WireBorder],
     default: &Expect,
-    swept: &[Method],
+    swept: &[MethodName],
 ) -> Result<Vec<Case>, Fault> {
     distinct(wire.case.iter().map(|c| &c.name))?;
     wire.case.iter().try_for_each(|c| in_one_line(&c.name))?;

@@ -1,25 +1,43 @@
 //! Methods, and what is expected of them.
 
 use super::check::{distinct, non_empty, unknown};
+use super::foreign;
+use crate::MethodName;
 use crate::scenario::error::Fault;
 use crate::scenario::wire::{WireCoverage, WireExpect, WireSweep, WireWidth};
-use crate::scenario::{Check, Coverage, Expect, Width};
+use crate::scenario::{Check, Coverage, Expect, ForeignMethod, Width};
 use switchback_identify::Method;
 use switchback_io::input::TwoNumbers;
 use toml::Spanned;
 
-pub(super) fn methods(sweep: &WireSweep) -> Result<Vec<Method>, Fault> {
-    distinct(non_empty(&sweep.methods)?.iter())?;
-    sweep.methods.get_ref().iter().map(method).collect()
+/// Our methods of the sweep. Those of others run in any case, whether they are listed or not.
+pub(super) fn methods(sweep: &WireSweep, foreign: &[ForeignMethod]) -> Result<Vec<Method>, Fault> {
+    if foreign.is_empty() {
+        non_empty(&sweep.methods)?;
+    }
+    distinct(sweep.methods.get_ref().iter())?;
+    let own = foreign::all(&Method::ALL, foreign);
+    let names = sweep.methods.get_ref().iter().map(|name| method(name, &own));
+    let own = |name| match name {
+        Ok(MethodName::Own(method)) => Some(Ok(method)),
+        Ok(MethodName::Foreign(_)) => None,
+        Err(fault) => Some(Err(fault)),
+    };
+    names.filter_map(own).collect()
 }
 
-fn method(name: &Spanned<String>) -> Result<Method, Fault> {
-    Method::from_name(name.get_ref()).ok_or_else(|| unknown(name, "method", &Method::ALL.map(Method::name)))
+/// The method of that name among those that there are.
+fn method(name: &Spanned<String>, all: &[MethodName]) -> Result<MethodName, Fault> {
+    let found = all.iter().find(|method| method.name() == name.get_ref());
+    let names: Vec<&str> = all.iter().map(MethodName::name).collect();
+    found.cloned().ok_or_else(|| unknown(name, "method", &names))
 }
 
-pub(super) fn expect(wire: &WireExpect, swept: &[Method]) -> Result<Expect, Fault> {
+pub(super) fn expect(wire: &WireExpect, swept: &[MethodName]) -> Result<Expect, Fault> {
+    let mut known: Vec<MethodName> = Method::ALL.into_iter().map(MethodName::Own).collect();
+    known.extend(swept.iter().filter(|method| method.is_foreign()).cloned());
     let in_sweep = |name: &Spanned<String>| {
-        let method = method(name)?;
+        let method = method(name, &known)?;
         if swept.contains(&method) {
             Ok(method)
         } else {

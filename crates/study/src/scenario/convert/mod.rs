@@ -3,6 +3,7 @@
 mod cases;
 mod check;
 mod expect;
+mod foreign;
 mod sweep;
 
 use super::border::WireBorder;
@@ -25,9 +26,11 @@ pub(in crate::scenario) fn scenario(
     let replication = replication(&wire)?;
     let coupling = coupling(wire.coupling.as_ref())?;
     let engine = engine(wire.engine.as_ref())?;
-    let (borders, sweep_methods) = (selected(borders, &wire.sweep)?, methods(&wire.sweep)?);
-    let expect = expect(&wire.expect, &sweep_methods)?;
-    let cases = cases(&wire, &borders, &expect, &sweep_methods)?;
+    let (borders, foreign) = (selected(borders, &wire.sweep)?, foreign::foreign(&wire.method)?);
+    let sweep_methods = methods(&wire.sweep, &foreign)?;
+    let swept = foreign::all(&sweep_methods, &foreign);
+    let expect = expect(&wire.expect, &swept)?;
+    let cases = cases(&wire, &borders, &expect, &swept)?;
     let sweep = sweep(&wire.sweep, sweep_methods, &cases)?;
     let labels = labels(wire.system.get_ref());
     Ok(Scenario {
@@ -40,6 +43,7 @@ pub(in crate::scenario) fn scenario(
         labels,
         cases,
         sweep,
+        foreign,
         source,
     })
 }
