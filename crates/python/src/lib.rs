@@ -9,11 +9,13 @@
 //! | `answer` | what a verb found: JSON, words, files |
 //! | `verbs` | the verbs |
 //! | `estimator` | the fit behind `SwitchedHysteresis` |
+//! | `method` | a function in Python as the estimator of a study |
 //! | `numbers`, `options`, `refusal` | arrays, arguments and exceptions |
 
 mod answer;
 mod call;
 mod estimator;
+mod method;
 mod numbers;
 mod options;
 mod records;

@@ -18,6 +18,10 @@ pub(crate) fn numbers(bytes: &[u8]) -> PyResult<Vec<f64>> {
 
 /// The bytes of numbers.
 pub(crate) fn bytes<'py>(py: Python<'py>, numbers: &[f64]) -> Bound<'py, PyBytes> {
-    let bytes: Vec<u8> = numbers.iter().flat_map(|number| number.to_ne_bytes()).collect();
-    PyBytes::new(py, &bytes)
+    let write = |bytes: &mut [u8]| {
+        let places = bytes.chunks_exact_mut(WIDTH);
+        places.zip(numbers).for_each(|(place, number)| place.copy_from_slice(&number.to_ne_bytes()));
+        Ok(())
+    };
+    PyBytes::new_with(py, size_of_val(numbers), write).expect("there is memory for it")
 }

@@ -25,6 +25,7 @@ from typing import TYPE_CHECKING, Any
 from ._design import Design, EffectPower, Planted, Power, design, plant, power
 from ._diagnosis import Candidate, Diagnosis, Gap, Parameter, Place, RecordGap, Verdict, diagnose
 from ._identification import Flag, Identification, RecordFit, identify
+from ._methods import MethodExperiment, MethodRecords
 from ._model import Bode, Model, Point, Simulation
 from ._native import SwitchbackError, __version__
 from ._result import Result
@@ -47,6 +48,8 @@ __all__ = [
     "Flag",
     "Gap",
     "Identification",
+    "MethodExperiment",
+    "MethodRecords",
     "Model",
     "Parameter",
     "Place",

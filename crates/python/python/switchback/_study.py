@@ -10,6 +10,7 @@ from functools import cached_property
 from typing import TYPE_CHECKING, Any, Optional, Union
 
 from . import _native
+from ._methods import Methods, adaptors
 from ._native import SwitchbackError
 from ._progress import shown
 from ._result import PathLike, Result
@@ -157,6 +158,7 @@ def study(
     threads: Optional[int] = None,
     yes: bool = False,
     progress: Optional[bool] = None,
+    methods: Optional[Methods] = None,
 ) -> Study:
     """Runs a consistency study: Monte-Carlo replicates of every cell of a sweep, and what they amount to.
 
@@ -174,6 +176,10 @@ def study(
         As in :func:`identify`.
     yes
         Run it even if it is estimated to take longer than a day.
+    methods
+        Estimators of your own by their names: functions of :class:`MethodRecords` that give the estimates in the order of ``parameters`` (or by
+        name), or a pair of estimates and standard errors. Each is judged beside the methods of the scenario, on the same noise. What a function
+        raises is a failure of that replicate. It is called from several threads, one after the other.
 
     Raises
     ------
@@ -184,9 +190,9 @@ def study(
     with shown(progress) as heard:
         if isinstance(scenario, Mapping):
             text = _json_of(scenario)
-            answer, toml = _native.study_of_json(f"{name}.toml", text, options, heard)
+            answer, toml = _native.study_of_json(f"{name}.toml", text, options, heard, adaptors(methods))
             return Study(answer, toml)
-        return Study(_native.study(os.fspath(scenario), options, heard))
+        return Study(_native.study(os.fspath(scenario), options, heard, adaptors(methods)))
 
 
 def _json_of(scenario: Mapping[str, Any]) -> str:
