@@ -34,6 +34,7 @@ mod launch;
 mod layers;
 mod matlab;
 mod measured;
+mod orders;
 mod ownership;
 mod pages;
 mod paired;
