@@ -179,7 +179,13 @@ fn a_request_says_how_the_record_was_made_and_nothing_of_the_system() {
     // Standard errors were not reported: there is no coverage.
     let theirs = &results.cells[2];
     assert!(theirs.intervals.is_empty());
-    assert!(theirs.parameters.iter().all(|p| p.coverage.is_none() && p.model_sd.is_none() && p.sd.is_some()));
+    let has_none = |p: &Parameter| p.coverage.is_none() && p.model_sd.is_none() && p.interval_score.is_none();
+    assert!(
+        theirs
+            .parameters
+            .iter()
+            .all(|p| has_none(p) && p.model_sd_relative_error.is_none() && p.sd.is_some())
+    );
 }
 
 #[test]

@@ -52,8 +52,8 @@ pub(super) fn performances(theory: &CellTheory, total: &CellSums, view: View) ->
         found.sd_controlled = adjusted.sd.map(|value| statistics::Measured { value, mcse });
     }
     for found in found.iter_mut().flatten().filter(|found| !found.model_sd.value.is_finite()) {
-        // Without standard errors there are no intervals.
-        found.coverage.value = f64::NAN;
+        // Without standard errors there are no intervals, and nothing to compare with the spread.
+        (found.coverage.value, found.model_sd_relative_error.value) = (f64::NAN, f64::NAN);
     }
     found
 }
