@@ -50,6 +50,7 @@ mod schemas;
 mod selftest;
 mod shards;
 mod simulate;
+mod simulator;
 mod streams;
 mod study;
 mod study_shards;

@@ -195,18 +195,23 @@ fn a_given_model_of_another_gain_lacks_nothing_but_that() {
     (model["b"], model["gain"]) = (b.into(), gain);
     folder.write("model.json", &model.to_string());
     let page = diagnosed(&folder, &["--model", "model.json"]);
-    assert_eq!(page["verdict"]["status"], "refit");
+    assert_eq!(page["verdict"]["status"], "parameters");
     assert_eq!(page["verdict"]["effects"].as_array().map(Vec::len), Some(0));
-    let refit = &page["verdict"]["refit"];
-    assert_eq!((&refit["order"], &refit["delay"]), (&Value::from(2), &Value::from(0)));
-    assert!(refit["closure"]["estimate"].as_f64().expect("a number") > 0.99, "{refit:#}");
+    let differences = page["differences"].as_array().expect("a list");
+    let off: Vec<&Value> = differences.iter().filter(|row| row["differs"] == true).collect();
+    let [gain] = off[..] else { panic!("{off:#?}") };
+    assert_eq!(
+        (&gain["what"], &gain["kind"], &gain["effect"]),
+        (&"gain".into(), &"parameter".into(), &Value::Null)
+    );
+    assert!((gain["in_b"].as_f64().expect("a number") * 1.2 - 1.0).abs() < 0.01, "{gain:#}");
     assert_eq!(page["verdict"]["calibrated"], false);
     let figure = |key: &str| page["gap"][key]["estimate"].as_f64().expect("a number");
-    assert!(figure("before") > 0.01, "{page:#}");
+    assert!(figure("before") > 0.01 && figure("closure") > 0.99, "{page:#}");
     assert!(figure("identified_anew").abs() < 1e-3 * figure("before"), "{page:#}");
     let output = folder.switchback(&["gap", "rig.toml", "--model", "model.json"]).output().expect("it runs");
     let reported = String::from_utf8(output.stdout).expect("text").replace('\n', " ");
-    assert!(reported.contains("The model's parameters (its order) are off: identified anew"), "{reported}");
+    assert!(reported.contains("What differs: the machine's gain is 0.83"), "{reported}");
 }
 
 #[test]

@@ -8,7 +8,7 @@ use switchback_identify::free::{FreeError, InputMap, Settings, identify};
 use switchback_identify::record::{Criterion, Effort, Sensitivities, Stretch, bare_system, fit};
 use switchback_model::record::Record;
 use switchback_model::reversal::{ReversalRule, Timing};
-use switchback_model::system::{LAWS, Quantity, Scale, System, Term};
+use switchback_model::system::{LAWS, LinearPart, Quantity, Scale, System, Term};
 
 /// Square of a misfit over that of the machine's noise that matters to no difference: the carrier has it on both sides.
 const SMALL_MISFIT: f64 = 0.02;
@@ -64,32 +64,14 @@ pub(super) fn surrogate(records: &[&Record], noise: f64) -> Result<Option<System
     let samples = stretches.iter().map(|s| s.v.len()).sum();
     let criterion = Criterion { filter: Vec::new(), sd: noise };
     let search = Search { stretches: &stretches, criterion, scale: Scale::of(&system, &pairs), samples };
-    // An effect may have passed for a delay.
+    // Effects may pass for dynamics, as a mass does for a pair of poles: the search begins once without any.
+    let (immediate, _) = LinearPart::new(&[], &[1.0], 0).expect("a gain of one");
+    let without_dynamics = System { linear: immediate, ..system.clone() };
+    // And an effect may have passed for a delay.
     system.linear = system.linear.widened();
-    let starts = [retimed(&system), system].map(|start| search.fit(&start, Effort::FINAL));
-    let [one, other] = starts;
-    let (mut system, mut deviance) = if one.1 < other.1 { one } else { other };
-    if deviance < SMALL_MISFIT * samples as f64 {
-        (system, deviance) = search.without_the_needless(system, deviance);
-    }
-    for _ in 0..MOST_EFFECTS {
-        if deviance < SMALL_MISFIT * samples as f64 {
-            break;
-        }
-        let now = coordinates(&system).len();
-        let tried = search.larger(&system).into_iter().map(|start| {
-            let (with, deviance) = search.fit(&start, Effort::SEARCH);
-            let more = coordinates(&with).len().saturating_sub(now);
-            (deviance + price(samples, more), with, deviance)
-        });
-        let Some((worth, best, least)) = tried.min_by(|x, y| x.0.total_cmp(&y.0)) else { break };
-        if worth > deviance || least > LEAST_GAIN * deviance {
-            break;
-        }
-        (system, deviance) = search.fit(&best, Effort::FINAL);
-        (system, deviance) = search.without_the_needless(system, deviance);
-    }
-    Ok(Some(system))
+    let grown = [system, without_dynamics].map(|start| search.grown(&start));
+    let best = grown.into_iter().min_by(|x, y| search.worth(x).total_cmp(&search.worth(y)));
+    Ok(best.map(|(system, _)| system))
 }
 
 /// The record with white noise on its output, of a seed of its own.
@@ -102,6 +84,36 @@ fn with_noise(record: &Record, sd: f64, number: usize) -> Record {
 impl Search<'_> {
     fn fit(&self, system: &System, effort: Effort) -> (System, f64) {
         fit(system, &coordinates(system), self.stretches, (&self.criterion, &self.scale), effort)
+    }
+
+    /// Deviance and price of all its numbers.
+    fn worth(&self, (system, deviance): &(System, f64)) -> f64 {
+        // A misfit below the one that matters is none.
+        deviance.max(SMALL_MISFIT * self.samples as f64) + price(self.samples, coordinates(system).len())
+    }
+
+    /// The system with effects, poles and knots added while these explain enough, and without those that are needless then.
+    fn grown(&self, start: &System) -> (System, f64) {
+        let [one, other] = [retimed(start), start.clone()].map(|start| self.fit(&start, Effort::FINAL));
+        let (mut system, mut deviance) = if one.1 < other.1 { one } else { other };
+        for _ in 0..MOST_EFFECTS {
+            if deviance < SMALL_MISFIT * self.samples as f64 {
+                break;
+            }
+            let now = coordinates(&system).len();
+            let tried = self.larger(&system).into_iter().map(|start| {
+                let (with, deviance) = self.fit(&start, Effort::SEARCH);
+                let more = coordinates(&with).len().saturating_sub(now);
+                (deviance + price(self.samples, more), with, deviance)
+            });
+            let Some((worth, best, least)) = tried.min_by(|x, y| x.0.total_cmp(&y.0)) else { break };
+            if worth > deviance || least > LEAST_GAIN * deviance {
+                break;
+            }
+            (system, deviance) = self.fit(&best, Effort::FINAL);
+            (system, deviance) = self.without_the_needless(system, deviance);
+        }
+        self.without_the_needless(system, deviance)
     }
 
     /// Without the terms and poles that cost more than they explain.

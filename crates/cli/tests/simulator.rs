@@ -1,0 +1,175 @@
+//! A machine beside simulators of it, and beside its records of another day: every sentence is about what differs between both.
+
+use crate::common::Folder;
+use serde_json::Value;
+use std::fmt::Write;
+
+/// A spring with a play of 1 mm and a friction of 5 N behind a second order, 200 samples a second.
+fn machine(v: &[f64], play: f64) -> Vec<f64> {
+    let (omega, zeta) = (0.38, 0.6);
+    let radius = f64::exp(-zeta * omega);
+    let (a1, a2) = (-2.0 * radius * (omega * f64::sqrt(1.0 - zeta * zeta)).cos(), radius * radius);
+    let (mut p, mut side, mut before, mut earlier) = (v[0], 1.0, 5.0, 5.0);
+    let sample = |v: &f64| {
+        let q = p.clamp(v - 0.5 * play, v + 0.5 * play);
+        side = if q > p {
+            1.0
+        } else if q < p {
+            -1.0
+        } else {
+            side
+        };
+        p = q;
+        let y = (1.0 + a1 + a2) * (p + 5.0 * side) - a1 * before - a2 * earlier;
+        (before, earlier) = (y, before);
+        y
+    };
+    v.iter().map(sample).collect()
+}
+
+/// Numbers from 0 to 1.
+fn random(seed: u64) -> impl FnMut() -> f64 {
+    let mut state = seed;
+    move || {
+        state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        (state >> 11) as f64 / (1_u64 << 53) as f64
+    }
+}
+
+fn walk(samples: usize, seed: u64) -> Vec<f64> {
+    let (mut random, mut v, mut target, mut step) = (random(seed), 0.0, 0.0_f64, 0.1_f64);
+    let sample = |_| {
+        if (target - v).abs() < step.abs() {
+            target = 40.0 * random() - 20.0;
+            step = (0.1 + 0.7 * random()).copysign(target - v);
+        }
+        v += step;
+        v
+    };
+    (0..samples).map(sample).collect()
+}
+
+/// Rows of measurements, with the predictions of a simulator where there are any.
+fn table(v: &[f64], y: &[f64], predicted: Option<&[f64]>) -> String {
+    let mut noise = random(99);
+    let mut text =
+        format!("time [s],travel [mm],force [N]{}\n", if predicted.is_some() { ",y_sim" } else { "" });
+    for t in 0..v.len() {
+        let error = 0.3 * ((0..12).map(|_| noise()).sum::<f64>() - 6.0);
+        let _ = write!(text, "{:.3},{:.5},{:.4}", 0.005 * t as f64, v[t], y[t] + error);
+        if let Some(predicted) = predicted {
+            let _ = write!(text, ",{:.5}", predicted[t]);
+        }
+        text.push('\n');
+    }
+    text
+}
+
+/// The folder of a machine and a simulator whose prediction is a change of the right one.
+fn folder(change: impl Fn(&[f64]) -> Vec<f64>) -> Folder {
+    let v = walk(4000, 5);
+    let y = machine(&v, 1.0);
+    let folder = Folder::with_good_rig();
+    folder.write("record.csv", &table(&v, &y, Some(&change(&y))));
+    folder
+}
+
+fn run(folder: &Folder, arguments: &[&str]) -> (Option<i32>, String) {
+    let output = folder.switchback(arguments).output().expect("it runs");
+    let text = String::from_utf8(output.stdout).expect("text").replace('\n', " ");
+    (output.status.code(), text + &String::from_utf8_lossy(&output.stderr))
+}
+
+fn json(folder: &Folder, arguments: &[&str]) -> Value {
+    let output = folder.switchback(arguments).output().expect("it runs");
+    serde_json::from_slice(&output.stdout).expect("one JSON object")
+}
+
+/// The names of the values that differ.
+fn off(page: &Value) -> Vec<&str> {
+    let rows = page["differences"].as_array().expect("a list").iter();
+    rows.filter(|row| row["differs"] == true).map(|row| row["what"].as_str().expect("a name")).collect()
+}
+
+#[test]
+fn a_simulator_that_is_a_sample_late_is_late_and_nothing_else() {
+    let late = |y: &[f64]| (0..y.len()).map(|t| y[t.saturating_sub(1)]).collect();
+    let folder = folder(late);
+    let (code, text) = run(&folder, &["gap", "record.csv"]);
+    assert_eq!(code, Some(0), "{text}");
+    for words in [
+        "y_sim answers 0.00",
+        "later than the machine",
+        "of delay out of it",
+        "what remains is the noise floor",
+    ] {
+        assert!(text.contains(words), "{words}: {text}");
+    }
+    assert!(!text.contains("lacks"), "{text}");
+    let page = json(&folder, &["gap", "record.csv", "--json"]);
+    assert_eq!((&page["verdict"]["status"], off(&page)), (&"parameters".into(), vec!["delay"]));
+    let delay = &page["differences"][0];
+    assert!((delay["in_a"].as_f64().expect("a number") - 0.005).abs() < 3e-4, "{delay:#}");
+    assert_eq!((&delay["in_b"], &delay["unit"]), (&Value::from(0.0), &"s".into()));
+    // A team's check of its simulator.
+    let expect = |what: &str| run(&folder, &["gap", "record.csv", "--quiet", "--expect", what]).0;
+    assert_eq!((expect("delay = 0"), expect("friction within 5 %")), (Some(1), Some(0)));
+}
+
+#[test]
+fn a_turned_sign_and_another_unit_are_no_cause() {
+    let page = |factor: f64| {
+        let folder = folder(|y| y.iter().map(|y| factor * y).collect());
+        (json(&folder, &["gap", "record.csv", "--json"]), run(&folder, &["gap", "record.csv"]).1)
+    };
+    let (turned, words) = page(-1.0);
+    assert_eq!((&turned["verdict"]["status"], off(&turned)), (&"parameters".into(), vec!["gain"]));
+    assert!(words.contains("the sign of y_sim is turned"), "{words}");
+    let (thousand, words) = page(1000.0);
+    assert_eq!(off(&thousand), ["gain"]);
+    assert!(words.contains("compare the units of both"), "{words}");
+}
+
+#[test]
+fn a_simulator_that_is_right_misses_nothing_and_one_without_the_play_lacks_it() {
+    let page = json(&folder(<[f64]>::to_vec), &["gap", "record.csv", "--json"]);
+    assert_eq!((&page["verdict"]["status"], off(&page)), (&"none".into(), vec![]), "{page:#}");
+    let v = walk(4000, 5);
+    let stiff = machine(&v, 0.0);
+    let folder = folder(|_| stiff.clone());
+    let page = json(&folder, &["gap", "record.csv", "--json", "--out", "report"]);
+    assert_eq!(page["verdict"]["effects"], serde_json::json!(["backlash"]), "{page:#}");
+    let play = &page["differences"][0];
+    assert!((play["in_b"].as_f64().expect("a number") - 1.0).abs() < 0.05 && play["in_a"] == 0.0, "{play:#}");
+    // The source with the values of the machine simulates that.
+    let (code, text) = run(&folder, &["simulate", "report/aligned.json", "record.csv", "--out", "run.csv"]);
+    assert_eq!(code, Some(0), "{text}");
+    let fit =
+        text.split("fit ").nth(1).and_then(|rest| rest.split(' ').next()).and_then(|x| x.parse::<f64>().ok());
+    assert!(fit.is_none_or(|fit| fit > 97.0), "{text}");
+    assert!(folder.path("report/index.html").exists());
+}
+
+#[test]
+fn another_day_is_compared_by_its_records() {
+    let (monday, tuesday) = (walk(4000, 6), walk(3000, 7));
+    let folder = Folder::with_good_rig();
+    folder.write("monday.csv", &table(&monday, &machine(&monday, 1.0), None));
+    let tared: Vec<f64> = machine(&tuesday, 1.0).iter().map(|y| y + 1.7).collect();
+    folder.write("tuesday.csv", &table(&tuesday, &tared, None));
+    let page = json(&folder, &["gap", "tuesday.csv", "--against", "monday.csv", "--json"]);
+    assert_eq!((&page["model"], off(&page)), (&"against".into(), vec!["offset"]), "{page:#}");
+    let offset = &page["differences"][0];
+    assert!((offset["in_b"].as_f64().expect("a number") - 1.7).abs() < 0.1, "{offset:#}");
+    // Another range of the input cannot be compared, and another unit is refused.
+    let far: Vec<f64> = monday.iter().map(|v| v + 1e5).collect();
+    folder.write("far.csv", &table(&far, &machine(&monday, 1.0), None));
+    let refused = |file: &str, words: &str| {
+        let (code, text) = run(&folder, &["gap", "tuesday.csv", "--against", file]);
+        assert!(code == Some(2) && text.contains(words) && text.contains("help: "), "{text}");
+    };
+    refused("far.csv", "hardly overlap");
+    let other = table(&monday, &machine(&monday, 1.0), None).replace("[mm]", "[m]");
+    folder.write("metres.csv", &other);
+    refused("metres.csv", "[m]");
+}
