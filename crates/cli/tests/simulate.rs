@@ -303,7 +303,7 @@ fn bad_models_and_inputs_are_refused_with_their_place_and_a_remedy() {
     with(&model.replace("\"noise_sd\":", "\"noise\":"));
     refused_model(&["bad.json:", "noise"]);
     with(&model.replace("\"kind\": \"points\"", "\"kind\": \"spline\""));
-    refused_model(&["spline", "switched, curves or points"]);
+    refused_model(&["spline", "switched, curves, machine or points"]);
     let input = |text: &str| folder.write("bad.csv", text);
     let refused_input = |words: &[&str]| {
         refused(&folder, &["simulate", "found/model.json", "bad.csv", "--out", "run.csv"], words)

@@ -30,7 +30,8 @@ impl GivenModel {
         judged: &[usize],
     ) -> Result<Option<Self>, DiagnoseError> {
         Ok(match model {
-            Model::Identify => None,
+            // Other records have no predictions before a system stands for them.
+            Model::Identify | Model::Against(_) => None,
             Model::Given(model) => {
                 let given = crate::nominal::given::scaled(dataset, model)?;
                 let run = |&k: &usize| free_run(dataset, &given, k, &dataset.scaled_records[k]);
@@ -41,7 +42,7 @@ impl GivenModel {
                     fit: Some(given),
                 })
             }
-            Model::Predicted | Model::Against(_) => {
+            Model::Predicted => {
                 let errors = |(scaled, predicted): (&ScaledRecord, Option<Vec<f64>>)| {
                     let errors = |run: Vec<f64>| {
                         scaled.y.iter().zip(run).skip(scaled.from).map(|(y, x)| y - x).collect()

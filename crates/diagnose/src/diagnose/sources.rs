@@ -7,7 +7,8 @@ use switchback_model::reversal::ReversalRule;
 use switchback_model::rig::{Rig, Usage};
 use switchback_model::system::{Borders, LinearPart, Sensor, System};
 
-use super::plan::Plan;
+use super::given_model::GivenModel;
+use super::plan::{Plan, judged_scaled_records};
 use super::report::{Conclusion, Other};
 use crate::diagnosis::{Candidate, Diagnosis};
 use crate::differences::{Differences, MachineRecord, RowKind, Source, compare};
@@ -32,6 +33,9 @@ pub(super) fn compared(
     workers.begin(Phase::Nominal);
     let dataset = Dataset::new(rig)?;
     let declared = declared(rig, &model)?;
+    // What is wrong with the model or its predictions comes first.
+    let judged = judged_scaled_records(&dataset, &mut Vec::new());
+    GivenModel::of(&model, rig, &dataset, &judged)?;
     let differences = differences(rig, &model)?;
     // Where only other records are known, the model under diagnosis is the system that stands for them.
     let (rig, model) = match (&model, &differences) {
@@ -220,6 +224,17 @@ fn verdict(plan: &Plan, found: &Differences, other: &Other) -> Verdict {
     }
     let left = square / f64::max(count, 1.0) / other.floor.0.max(f64::MIN_POSITIVE);
     let explains = left < EXPLAINED;
+    // An effect is the cause where the gap would stay without it, whatever other values close beside it.
+    let essential: Vec<Effect> = missing
+        .iter()
+        .filter(|(_, row)| row.closure >= ESSENTIAL)
+        .map(|(effect, _)| *effect)
+        .take(MOST_NAMED)
+        .collect();
+    if let Some(first) = essential.first() {
+        let verdict = naming_nothing(Status::Named, Some(first.stage()), probability);
+        return Verdict { effects: essential, ..verdict };
+    }
     let effects: Vec<Effect> = missing.iter().take(MOST_NAMED).map(|(effect, _)| *effect).collect();
     match (differs, effects.first()) {
         (false, _) if explains => naming_nothing(Status::None, None, 1.0 - most_probable_change(found)),
@@ -231,6 +246,9 @@ fn verdict(plan: &Plan, found: &Differences, other: &Other) -> Verdict {
         _ => naming_nothing(Status::Unexplained, None, 1.0),
     }
 }
+
+/// Share of the gap that must stay without an effect for it to be the cause by itself: nine tenths.
+const ESSENTIAL: f64 = 0.9;
 
 /// Mean square error over the noise up to which the aligned source explains the records: the noise itself has one, and the same again is a misfit as large as the noise.
 const EXPLAINED: f64 = 2.0;

@@ -81,7 +81,11 @@ pub fn compare(machine: &[MachineRecord<'_>], source: &Source) -> Result<Option<
         _ => stretch.clone(),
     };
     let stretches: Vec<Stretch> = used.iter().map(|&k| carried(&all[k], machine[k].predicted)).collect();
-    let scale = Scale::of(&found.system, &plain.iter().map(|s| (&s.v[..], &s.y[..])).collect::<Vec<_>>());
+    let scale = Scale::of(
+        &found.system.linear,
+        found.system.rule,
+        &plain.iter().map(|s| (&s.v[..], &s.y[..])).collect::<Vec<_>>(),
+    );
     let samples = plain.iter().map(|s| s.v.len()).sum();
     let mut start = start(regression(&outputs, 0), aligned);
     let mut rounds = (0..ROUNDS).map(|_| {

@@ -38,7 +38,7 @@ pub struct Row {
     pub probability: f64,
     /// Whether it differs.
     pub differs: bool,
-    /// Share of the gap that aligning it alone closes.
+    /// Share of the gap that would stay without it, all other differences aligned.
     pub closure: f64,
     /// Deviance that the gap would grow by without it.
     pub gain: f64,
@@ -71,7 +71,6 @@ pub(super) fn rows(context: Context<'_>, selected: &Selected, source: &[Stretch]
             _ => (in_a, in_b),
         };
         let gain = if differs { gain_of(context, selected, *quantity) } else { ((in_b - in_a) / se).powi(2) };
-        let alone = if differs { before - alone(context, selected, *quantity) } else { 0.0 };
         let odds = 0.5 * (gain - price(context.samples, 1));
         rows.push(Row {
             what: quantity.name(&aligned),
@@ -84,7 +83,7 @@ pub(super) fn rows(context: Context<'_>, selected: &Selected, source: &[Stretch]
             unit: quantity.unit(&aligned),
             probability: 1.0 / (1.0 + (-odds).exp()),
             differs,
-            closure: if gap > 0.0 { alone / gap } else { 0.0 },
+            closure: if differs && gap > 0.0 { gain / gap } else { 0.0 },
             gain,
         });
     }
@@ -105,13 +104,6 @@ fn in_base(base: &System, quantity: Quantity) -> f64 {
         }
         _ => quantity.value(base),
     }
-}
-
-/// Deviance of the base with one difference alone.
-fn alone(context: Context<'_>, selected: &Selected, quantity: Quantity) -> f64 {
-    let own = place(context, selected, quantity).map(|at| selected.differences[at].clone());
-    let (system, _) = with(context.base, own.as_slice());
-    Sensitivities::deviance(&system, context.stretches, context.criterion)
 }
 
 /// What dropping the difference that a quantity belongs to would lose.

@@ -105,7 +105,7 @@ impl Context<'_> {
         let at_once = self.stepwise(start.clone(), true);
         let apart = self.stepwise(self.stepwise(start, false), true);
         let best = if self.worth(&apart) <= self.worth(&at_once) { apart } else { at_once };
-        self.fit(&best.differences, Effort::FINAL)
+        self.without_the_needless(self.fit(&best.differences, Effort::FINAL))
     }
 
     /// Stepwise: the candidate that gains most is taken while it gains more than its price, and after each step those are dropped that no longer do.

@@ -63,7 +63,12 @@ pub(super) fn surrogate(records: &[&Record], noise: f64) -> Result<Option<System
     let stretches = Stretch::all(&pairs);
     let samples = stretches.iter().map(|s| s.v.len()).sum();
     let criterion = Criterion { filter: Vec::new(), sd: noise };
-    let search = Search { stretches: &stretches, criterion, scale: Scale::of(&system, &pairs), samples };
+    let search = Search {
+        stretches: &stretches,
+        criterion,
+        scale: Scale::of(&system.linear, system.rule, &pairs),
+        samples,
+    };
     // Effects may pass for dynamics, as a mass does for a pair of poles: the search begins once without any.
     let (immediate, _) = LinearPart::new(&[], &[1.0], 0).expect("a gain of one");
     let without_dynamics = System { linear: immediate, ..system.clone() };

@@ -19,7 +19,7 @@ impl Effort {
     /// To rank candidates.
     pub const SEARCH: Self = Self { iterations: 6, tolerance: 1e-3 };
     /// To report.
-    pub const FINAL: Self = Self { iterations: 25, tolerance: 1e-9 };
+    pub const FINAL: Self = Self { iterations: 40, tolerance: 1e-14 };
 }
 
 /// The system of least deviance near a start, the given quantities free and all others fixed; with that deviance.

@@ -1,7 +1,8 @@
 //! Sizes by which laws choose their starts.
 
+use super::linear_part::LinearPart;
 use super::motion::Motion;
-use super::simulate::System;
+use crate::reversal::ReversalRule;
 
 /// Typical sizes in a dataset.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -27,8 +28,8 @@ pub struct Scale {
 }
 
 impl Scale {
-    /// The sizes of a system's records, `(v, y)` each.
-    pub fn of(system: &System, records: &[(&[f64], &[f64])]) -> Self {
+    /// The sizes of records, `(v, y)` each, behind a linear part.
+    pub fn of(linear: &LinearPart, rule: ReversalRule, records: &[(&[f64], &[f64])]) -> Self {
         let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
         let (mut ends, mut sum, mut square, mut count) = ((low, high), 0.0, 0.0, 0.0);
         let (mut moves, mut bends) = (Vec::new(), 0.0);
@@ -42,7 +43,7 @@ impl Scale {
                 square += y * y;
                 count += 1.0;
             }
-            let motion = Motion::of(v, system.rule);
+            let motion = Motion::of(v, rule);
             moves.extend(motion.moved.iter().copied().filter(|m| *m > 0.0));
             bends += motion.acceleration.iter().map(|a| a * a).sum::<f64>();
         }
@@ -50,7 +51,7 @@ impl Scale {
         let middle = moves.len() / 2;
         let speed =
             if moves.is_empty() { 1.0 } else { *moves.select_nth_unstable_by(middle, f64::total_cmp).1 };
-        let radius = crate::linear::spectral_radius(system.linear.a()).min(1.0 - 1e-9);
+        let radius = crate::linear::spectral_radius(linear.a()).min(1.0 - 1e-9);
         Self {
             travel: high - low,
             speed,

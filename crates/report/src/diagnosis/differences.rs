@@ -1,6 +1,6 @@
 //! The differences between a machine and what was compared with it, in sentences and as a table.
 
-use super::sentences::probability;
+use super::probability::probability;
 use switchback_diagnose::Status;
 use switchback_diagnose::differences::{Differences, RowKind};
 use switchback_io::diagnosis::{Report, ReportedDifference, Source, Units, digits, whole_percent};
@@ -96,7 +96,8 @@ fn the_same(row: &ReportedDifference) -> String {
 }
 
 fn difference(row: &ReportedDifference, source: &str) -> String {
-    let closes = format!("aligning it alone closes {} %", whole_percent(100.0 * row.closure.clamp(0.0, 1.0)));
+    let closes =
+        format!("without it {} % of the gap would stay", whole_percent(100.0 * row.closure.clamp(0.0, 1.0)));
     match row.what.as_str() {
         "delay" => {
             let by = with_unit(with_error(row.in_a.abs(), row.se), &row.unit);
@@ -205,7 +206,7 @@ pub(super) fn table(report: &Report, differences: &Differences) -> String {
         ]);
     }
     let note = wrapped(
-        "probability: that the values differ. A delay is that of the source against the machine; `closes`: the share of the gap that aligning this one alone closes.",
+        "probability: that the values differ. A delay is that of the source against the machine; `closes`: the share of the gap that would stay without aligning this value.",
         "",
     );
     format!("{}{note}", columns(&lines))

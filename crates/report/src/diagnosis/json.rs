@@ -121,7 +121,7 @@ pub(crate) struct Difference {
     pub probability: f64,
     /// Whether they do.
     pub differs: bool,
-    /// Share of the gap that aligning this one alone closes.
+    /// Share of the gap that would stay without aligning this one, all others aligned.
     #[serde(deserialize_with = "switchback_io::input::nullable::number")]
     pub closure: f64,
     /// The attribute of a MuJoCo joint that it is, where it is one.

@@ -1,6 +1,7 @@
 //! The verdict in sentences: where, which, how far, what remains.
 
 use super::place;
+use super::probability::probability;
 use switchback_diagnose::{Diagnosis, Effect, FittedParameter, Gap, Status, Verdict};
 use switchback_io::diagnosis::{Report, Source, Units, reported};
 use switchback_io::diagnosis::{digits, whole_percent, with_interval};
@@ -285,16 +286,6 @@ fn next_best(diagnosis: &Diagnosis) -> String {
     let best = effects.chain(rest).max_by(|x, y| x.1.total_cmp(&y.1));
     best.filter(|(_, p)| *p >= 0.005)
         .map_or_else(String::new, |(name, p)| format!("; next best {name}, {}", probability(p)))
-}
-
-/// Two decimals; certainty is never printed.
-pub(crate) fn probability(p: f64) -> String {
-    match p {
-        p if p.is_nan() => "–".to_owned(),
-        p if p > 0.99 => "> 0.99".to_owned(),
-        p if p < 0.01 => "< 0.01".to_owned(),
-        p => format!("{p:.2}"),
-    }
 }
 
 /// Share of the gap of a model that was given that a model without any cause closes, identified anew; nothing where there is no gap.

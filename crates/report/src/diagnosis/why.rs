@@ -1,6 +1,6 @@
 //! Why the first candidate comes first: what each saves, by how far ahead it predicts.
 
-use super::sentences::probability;
+use super::probability::probability;
 use super::words::LISTED;
 use switchback_diagnose::fitted::{SecondOpinion, Shares};
 use switchback_diagnose::{Candidate, Diagnosis, Horizon, HorizonGain};

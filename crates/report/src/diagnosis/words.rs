@@ -1,7 +1,8 @@
 //! The diagnosis as a page for a person.
 
+use super::probability::probability;
 use super::sentences;
-use super::sentences::{parameters, probability};
+use super::sentences::parameters;
 use std::fmt::Write;
 use std::path::Path;
 use switchback_diagnose::Candidate;

@@ -69,7 +69,7 @@ mod tests {
             (0..900).map(|t| if t % 100 < 20 { input(t - t % 100) } else { input(t) }).collect();
         let span = Span { record: 1, before: 300, total: 1500 };
         let bare = system.simulate(&v, span);
-        let scale = Scale { records: 2, ..Scale::of(&system, &[(&v, &bare)]) };
+        let scale = Scale { records: 2, ..Scale::of(&system.linear, system.rule, &[(&v, &bare)]) };
         for law in LAWS {
             let mut noticed = false;
             for values in law.starts(&scale) {

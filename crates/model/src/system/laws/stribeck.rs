@@ -33,7 +33,7 @@ impl Law for Falling {
 
     /// Far above the speeds of the records the force is constant, and far below it is never met.
     fn is_sound(&self, values: &[f64], scale: &Scale) -> bool {
-        (0.1..5.0).contains(&(values[1] / scale.speed))
+        (0.1..2.0).contains(&(values[1] / scale.speed))
     }
 
     fn operator(&self, values: &[f64], motion: &Motion, _: Span, operator: &mut Operator) {

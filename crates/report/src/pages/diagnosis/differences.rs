@@ -15,7 +15,7 @@ pub(super) fn differences(gap: &GapFile) -> Markup {
         }
         p class="note" {
             "Filled: the machine, with its 95 % interval; hollow: what was compared with it. A delay is relative to the machine's. Closure: the share of the gap that "
-            "aligning this value alone closes."
+            "would stay without aligning this value."
         }
     }
 }
@@ -48,7 +48,7 @@ fn line(row: &Difference) -> Markup {
             td { (row.unit) }
             td { (axis(row)) }
             td class="n" { (probability(row.probability)) }
-            td { @if row.differs { (bar(row.closure)) } }
+            td class="n" { @if row.differs { (bar(row.closure)) } }
         }
     }
 }
