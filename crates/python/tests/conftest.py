@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import signal
 import subprocess
 from pathlib import Path
 
@@ -13,6 +14,9 @@ ROOT = Path(__file__).resolve().parents[3]
 BENCH = ROOT / "scenarios/data/bench.csv"
 QUICK = ROOT / "scenarios/quick.toml"
 LEAF_SPRING = ROOT / "scenarios/rigs/leaf-spring/rig.toml"
+
+# A shell that starts the tests in the background has them ignore interrupts, and Python leaves that as it finds it.
+signal.signal(signal.SIGINT, signal.default_int_handler)
 
 
 def program_path() -> Path:
