@@ -1,15 +1,71 @@
 //! The differences between a machine and what was compared with it, in sentences and as a table.
 
 use super::probability::probability;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
 use switchback_diagnose::Status;
 use switchback_diagnose::differences::{Differences, RowKind};
 use switchback_io::diagnosis::{Report, ReportedDifference, Source, Units, digits, whole_percent};
 use switchback_io::output::{columns, wrapped};
 
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct Difference {
+    /// The quantity.
+    pub what: String,
+    /// `parameter`: both sides have it; `effect`: an effect of either side.
+    pub kind: String,
+    /// The effect whose parameter it is; null for a parameter.
+    pub effect: Option<String>,
+    /// Its value in what was compared with the machine, a delay relative to the machine's; zero for the strength of an effect that this lacks, null for its shape.
+    pub in_a: Option<f64>,
+    /// Its value in the machine.
+    #[serde(deserialize_with = "switchback_io::input::nullable::number")]
+    pub in_b: f64,
+    /// Standard error of `in_b`.
+    #[serde(deserialize_with = "switchback_io::input::nullable::number")]
+    pub se: f64,
+    /// Unit of these; empty for a pure number.
+    pub unit: String,
+    /// Probability that the values differ.
+    #[serde(deserialize_with = "switchback_io::input::nullable::number")]
+    #[schemars(range(min = 0, max = 1))]
+    pub probability: f64,
+    /// Whether they do.
+    pub differs: bool,
+    /// Share of the gap that would stay without aligning this one, all others aligned.
+    #[serde(deserialize_with = "switchback_io::input::nullable::number")]
+    pub closure: f64,
+    /// The attribute of a MuJoCo joint that it is, where it is one.
+    pub attribute: Option<String>,
+}
+
 /// Every row in the user's units, those that differ first.
 pub(crate) fn reported(report: &Report, differences: &Differences) -> Vec<ReportedDifference> {
     let units = Units::of(&report.rig);
     differences.rows.iter().map(|row| ReportedDifference::of(row, &units)).collect()
+}
+
+/// The rows as they are written.
+pub(super) fn written(report: &Report) -> Vec<Difference> {
+    let Some(found) = &report.diagnosis.differences else { return Vec::new() };
+    let one = |row: ReportedDifference| Difference {
+        what: row.what,
+        kind: match row.kind {
+            RowKind::Parameter => "parameter".to_owned(),
+            RowKind::Effect => "effect".to_owned(),
+        },
+        effect: row.effect.map(str::to_owned),
+        in_a: Some(row.in_a).filter(|x| x.is_finite()),
+        in_b: row.in_b,
+        se: row.se,
+        unit: row.unit,
+        probability: row.probability,
+        differs: row.differs,
+        closure: row.closure,
+        attribute: row.attribute.map(str::to_owned),
+    };
+    reported(report, found).into_iter().map(one).collect()
 }
 
 /// `transition length`.
@@ -72,7 +128,7 @@ pub(super) fn sentences(report: &Report, differences: &Differences) -> Vec<Strin
     if let Some(known) = off.iter().find_map(|row| known_factor(row)) {
         sentences.push(known);
     }
-    let alike: Vec<String> = same.iter().filter(|row| is_told(row)).map(|row| the_same(row)).collect();
+    let alike: Vec<String> = same.iter().filter(|row| is_listed(row)).map(|row| the_same(row)).collect();
     if !alike.is_empty() {
         sentences.push(format!("The same on both sides: {}.", alike.join(", ")));
     }
@@ -84,7 +140,7 @@ pub(super) fn sentences(report: &Report, differences: &Differences) -> Vec<Strin
 }
 
 /// Shapes of effects that are not there are no values of either side.
-fn is_told(row: &ReportedDifference) -> bool {
+fn is_listed(row: &ReportedDifference) -> bool {
     row.in_a.is_finite()
 }
 
@@ -161,7 +217,7 @@ fn advice(report: &Report, off: &[&ReportedDifference]) -> String {
             }
         }
     };
-    let steps: Vec<String> = off.iter().filter(|row| is_told(row)).map(|row| one(&row)).collect();
+    let steps: Vec<String> = off.iter().filter(|row| is_listed(row)).map(|row| one(&row)).collect();
     let what = match report.source {
         Source::Identified | Source::Given => "In the given model",
         Source::Predicted => "In the simulator",

@@ -1,9 +1,9 @@
 //! The diagnosis as one JSON object.
 
+use super::differences::{Difference, written};
 use super::sentences;
 use schemars::{JsonSchema, Schema};
 use serde::{Deserialize, Serialize};
-use switchback_diagnose::differences::RowKind;
 use switchback_diagnose::fitted::{self, Shares};
 use switchback_diagnose::{
     Candidate, Cell, CellInterval, Diagnosis, Effect, ExperimentKind, Figure, FittedParameter, Horizon,
@@ -94,38 +94,6 @@ pub(crate) struct Verdict {
     /// How many times larger the error is on held-out records that were taken under other conditions than the fit records.
     #[schemars(range(min = 0))]
     pub held_out_error_ratio: Option<f64>,
-}
-
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub(crate) struct Difference {
-    /// The quantity.
-    pub what: String,
-    /// `parameter`: both sides have it; `effect`: an effect of either side.
-    pub kind: String,
-    /// The effect whose parameter it is; null for a parameter.
-    pub effect: Option<String>,
-    /// Its value in what was compared with the machine, a delay relative to the machine's; zero for the strength of an effect that this lacks, null for its shape.
-    pub in_a: Option<f64>,
-    /// Its value in the machine.
-    #[serde(deserialize_with = "switchback_io::input::nullable::number")]
-    pub in_b: f64,
-    /// Standard error of `in_b`.
-    #[serde(deserialize_with = "switchback_io::input::nullable::number")]
-    pub se: f64,
-    /// Unit of these; empty for a pure number.
-    pub unit: String,
-    /// Probability that the values differ.
-    #[serde(deserialize_with = "switchback_io::input::nullable::number")]
-    #[schemars(range(min = 0, max = 1))]
-    pub probability: f64,
-    /// Whether they do.
-    pub differs: bool,
-    /// Share of the gap that would stay without aligning this one, all others aligned.
-    #[serde(deserialize_with = "switchback_io::input::nullable::number")]
-    pub closure: f64,
-    /// The attribute of a MuJoCo joint that it is, where it is one.
-    pub attribute: Option<String>,
 }
 
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -443,7 +411,7 @@ pub fn json(report: &Report) -> String {
         model: report.source.name().to_owned(),
         verdict: verdict(&diagnosis.verdict),
         in_words: sentences::verdict(report),
-        differences: differences(report),
+        differences: written(report),
         gap: gap(diagnosis),
         r#where: diagnosis.where_.iter().map(|cell| place(cell, &units)).collect(),
         candidates: diagnosis.candidates.iter().map(|c| hypothesis(c, &units)).collect(),
@@ -464,27 +432,6 @@ pub fn json(report: &Report) -> String {
         version: env!("CARGO_PKG_VERSION").to_owned(),
     };
     stamped(SCHEMA, &page)
-}
-
-fn differences(report: &Report) -> Vec<Difference> {
-    let Some(found) = &report.diagnosis.differences else { return Vec::new() };
-    let one = |row: switchback_io::diagnosis::ReportedDifference| Difference {
-        what: row.what,
-        kind: match row.kind {
-            RowKind::Parameter => "parameter".to_owned(),
-            RowKind::Effect => "effect".to_owned(),
-        },
-        effect: row.effect.map(str::to_owned),
-        in_a: Some(row.in_a).filter(|x| x.is_finite()),
-        in_b: row.in_b,
-        se: row.se,
-        unit: row.unit,
-        probability: row.probability,
-        differs: row.differs,
-        closure: row.closure,
-        attribute: row.attribute.map(str::to_owned),
-    };
-    super::differences::reported(report, found).into_iter().map(one).collect()
 }
 
 fn second_opinion(reported: &fitted::SecondOpinion) -> SecondOpinion {

@@ -10,6 +10,7 @@ mod why;
 mod words;
 
 pub use artefacts::artefacts;
+pub(crate) use differences::Difference;
 pub use json::json;
 pub use json::schema;
 pub(crate) use place::SIGNIFICANT;

@@ -1,6 +1,7 @@
 //! What differs between the machine and what was compared with it.
 
-use crate::diagnosis::json::{Difference, GapFile};
+use crate::diagnosis::Difference;
+use crate::diagnosis::json::GapFile;
 use crate::diagnosis::probability;
 use maud::{Markup, html};
 use switchback_io::diagnosis::{digits, whole_percent};
