@@ -16,5 +16,5 @@ mod stretch;
 pub use bare::bare_system;
 pub use criterion::Criterion;
 pub use fit::{Effort, fit};
-pub use sensitivities::Sensitivities;
+pub use sensitivities::{Sensitivities, filter_and_project};
 pub use stretch::Stretch;

@@ -137,8 +137,8 @@ fn errors(stretch: &Stretch, run: &[f64]) -> Vec<f64> {
     stretch.y.iter().zip(run).map(|(y, r)| if r.is_finite() { y - r } else { 1e150 }).collect()
 }
 
-/// Filters signals of a record, and removes from each what initial states of the linear part could make of it.
-fn filter_and_project(system: &System, stretch: &Stretch, signals: &mut [Vec<f64>], criterion: &Criterion) {
+/// Filters signals of a record, and removes from each the traces that initial states of the linear part could leave.
+pub fn filter_and_project(system: &System, stretch: &Stretch, signals: &mut [Vec<f64>], criterion: &Criterion) {
     for signal in signals.iter_mut() {
         *signal = criterion.filtered(std::mem::take(signal));
     }
