@@ -2,9 +2,9 @@
 
 use schemars::JsonSchema;
 
+use crate::comparison::Compared;
 use crate::differences::Differences;
 use crate::effect::{Effect, Stage};
-use crate::evidence::Compared;
 use crate::export::PortableModel;
 use crate::figure::Figure;
 use crate::fitted_parameter::FittedParameter;

@@ -70,13 +70,15 @@
 
 mod attribution;
 mod closure;
+mod comparison;
 mod diagnose;
 mod diagnosis;
 pub mod differences;
 mod effect;
 mod effects;
 mod error;
-mod evidence;
+pub mod evidence;
+
 mod experiments;
 mod export;
 mod figure;
@@ -99,6 +101,8 @@ mod testing;
 mod verdict;
 mod workers;
 
+pub use comparison::Compared;
+pub use comparison::Comparison;
 pub use diagnose::diagnose;
 pub use diagnose::diagnose_with;
 pub use diagnosis::Candidate;
@@ -115,8 +119,6 @@ pub use diagnosis::Together;
 pub use effect::Effect;
 pub use effect::Stage;
 pub use error::DiagnoseError;
-pub use evidence::Compared;
-pub use evidence::Comparison;
 pub use export::LooksAhead;
 pub use export::PortableModel;
 pub use figure::Figure;

@@ -1,8 +1,13 @@
-//! Learns a posterior from a table of evidence (CSV: `label,weight,family,law,base`, then named numbers):
+//! Learns a posterior from a table of evidence:
 //!
-//! - `cargo run -p switchback-lab --release --example learn -- fit TABLE.csv POSTERIOR.bin`: learns and writes the weights
+//! - `cargo run -p switchback-lab --release --example learn -- evidence SEED FIRST COUNT TABLE.csv [RIGS]`: evidence of so many rigs of the population, a row a
+//!   rig; shards are begun beside each other and are the same at any number of threads
+//! - `… -- report TABLE.csv`: each population's shares out of fold, and the thresholds of least loss
+//! - `… -- fit TABLE.csv POSTERIOR.bin`: learns and writes the weights
 //! - `… -- compare TABLE.csv FOLDER`: trees, network, ranker and their mean on the same folds, `comparison.md` and `comparison.json`
 //! - `… -- thresholds TABLE.csv POSTERIOR.bin`: thresholds of what is reported, by losses, on rows that the posterior did not learn
+//!
+//! `TABLE.csv` may be a folder of such tables with the same columns. `RIGS` is the folder of measured rigs, `../shared/rigs` if nothing is said.
 //! - `… -- time ROWS COLUMNS CLASSES`: processor time of the trees on a drawn table
 
 #![allow(clippy::disallowed_methods, reason = "an example reads its arguments")]
@@ -11,16 +16,22 @@ use cpu_time::ProcessTime;
 use miette::{IntoDiagnostic, miette};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
+use rayon::prelude::*;
+use std::fmt::Write;
+use std::ops::Range;
 use std::path::Path;
 use std::process::ExitCode;
 use switchback_diagnose::posterior::{Losses, Posterior};
 use switchback_io::input::own;
 use switchback_io::output::{Artefacts, OutputFile, OutputFolder, note, print};
+use switchback_lab::examination::measured_rigs;
 use switchback_lab::learning::{
-    Binned, BoostingSettings, LearningSettings, Table, Target, boost, compare, fit, fit_thresholds, outcomes,
+    Binned, BoostingSettings, Group, LearningSettings, Table, Target, boost, compare, fit, fit_thresholds,
+    held_out, markdown, outcomes, populations,
 };
+use switchback_lab::population::{EvidenceRow, MeasuredBases, draw};
 
-const USAGE: &str = "fit TABLE.csv POSTERIOR.bin, compare TABLE.csv FOLDER, thresholds TABLE.csv POSTERIOR.bin, or time ROWS COLUMNS CLASSES";
+const USAGE: &str = "evidence SEED FIRST COUNT TABLE.csv [RIGS], report TABLE.csv, fit TABLE.csv POSTERIOR.bin, compare TABLE.csv FOLDER, thresholds TABLE.csv POSTERIOR.bin, or time ROWS COLUMNS CLASSES";
 
 fn main() -> ExitCode {
     match run() {
@@ -53,6 +64,21 @@ fn run() -> miette::Result<()> {
             place.commit(&files).into_diagnostic()?;
             print(&comparison.markdown())
         }
+        ["evidence", seed, first, count, to, rest @ ..] => {
+            let place = OutputFile::claim(Path::new(to), false, &[]).into_diagnostic()?;
+            let range = number(first)? as u64..(number(first)? + number(count)?) as u64;
+            place.commit(evidence(number(seed)? as u64, range, &bases(rest)?)).into_diagnostic()
+        }
+        ["report", from] => {
+            let (judged, p) = held_out(&table(from)?, &settings);
+            let outcomes = outcomes(&judged.classes);
+            let (thresholds, loss) = fit_thresholds(&p, &judged.labels, &outcomes, &Losses::default());
+            print(&markdown(&populations(&judged, &p, &outcomes, &thresholds)))?;
+            print(&format!(
+                "named from {:.3}, class from {:.3}: mean loss {loss:.3}\n",
+                thresholds.named, thresholds.class
+            ))
+        }
         ["thresholds", from, weights] => thresholds(&table(from)?, weights),
         ["time", rows, columns, classes] => time(number(rows)?, number(columns)?, number(classes)?),
         _ => Err(miette!("{USAGE}")),
@@ -67,9 +93,67 @@ fn bytes(file: &str) -> miette::Result<Vec<u8>> {
     own(Path::new(file)).map_err(|error| miette!("{file}: cannot be read: {error}"))
 }
 
-fn table(file: &str) -> miette::Result<Table> {
-    let text = String::from_utf8(bytes(file)?).map_err(|_| miette!("{file}: is no text; give a CSV file"))?;
-    Table::from_csv(&text).map_err(|error| miette!("{file}: {error}"))
+fn table(place: &str) -> miette::Result<Table> {
+    let mut files = vec![place.to_owned()];
+    if Path::new(place).is_dir() {
+        let entries = std::fs::read_dir(place).into_diagnostic()?;
+        files = entries
+            .filter_map(|e| Some(e.ok()?.path().display().to_string()))
+            .filter(|f| f.ends_with(".csv"))
+            .collect();
+        files.sort();
+    }
+    let (mut all, mut header) = (String::new(), String::new());
+    for file in &files {
+        let text =
+            String::from_utf8(bytes(file)?).map_err(|_| miette!("{file}: is no text; give a CSV file"))?;
+        let (first, rows) = text.split_once('\n').unwrap_or((&text, ""));
+        if header.is_empty() {
+            header = first.to_owned();
+            all = format!("{header}\n");
+        }
+        if first != header {
+            return Err(miette!("{file}: other columns than {}; make its evidence anew", files[0]));
+        }
+        all.push_str(rows);
+    }
+    Table::from_csv(&all).map_err(|error| miette!("{place}: {error}"))
+}
+
+fn bases(rest: &[&str]) -> miette::Result<MeasuredBases> {
+    let folder = Path::new(rest.first().copied().unwrap_or("../shared/rigs"));
+    if !folder.is_dir() {
+        note(&format!("NO MEASURED BASES: there is no folder {}; made rigs only\n", folder.display()));
+        return Ok(MeasuredBases::default());
+    }
+    Ok(MeasuredBases::identified(measured_rigs(folder)?).0)
+}
+
+/// Rows of the training table.
+fn evidence(seed: u64, range: Range<u64>, bases: &MeasuredBases) -> String {
+    let rows: Vec<EvidenceRow> =
+        range.into_par_iter().filter_map(|index| EvidenceRow::of(&draw(seed, index, bases)?)).collect();
+    let mut text = String::from("label,weight,family,law,base,size,kind,given,also");
+    for (name, _) in rows.first().map_or(&[][..], |row| &row.columns) {
+        let _ = write!(text, ",{name}");
+    }
+    text.push('\n');
+    for row in rows {
+        let EvidenceRow { label, group: Group { family, law, base }, truth, columns } = row;
+        let given = if truth.is_given { "yes" } else { "no" };
+        let _ = write!(
+            text,
+            "{label},1,{family},\"{law}\",\"{base}\",{},{},{given},{}",
+            truth.size as f32,
+            truth.kind,
+            truth.also.join(";")
+        );
+        for (_, value) in columns {
+            let _ = write!(text, ",{}", value as f32);
+        }
+        text.push('\n');
+    }
+    text
 }
 
 fn thresholds(table: &Table, weights: &str) -> miette::Result<()> {

@@ -1,6 +1,7 @@
 //! A source that a machine is compared with.
 
-use super::surrogate::{bare, surrogate};
+use super::surrogate::surrogate;
+use crate::evidence::nominal;
 use switchback_identify::free::FreeError;
 use switchback_identify::record::{Criterion, Stretch};
 use switchback_model::Record;
@@ -44,7 +45,7 @@ impl Source {
             Self::Records(records) => {
                 let own: Vec<&Record> = records.iter().collect();
                 let records = stretches(records);
-                let Some(first) = bare(&own)? else { return Ok(None) };
+                let Some(first) = nominal(&own, None)? else { return Ok(None) };
                 let errors = records
                     .iter()
                     .map(|s| s.simulate(&first).iter().zip(&s.y).map(|(run, y)| y - run).collect())

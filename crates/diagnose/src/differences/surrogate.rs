@@ -1,11 +1,12 @@
 //! A system in place of a source of which only predictions are known.
 
+use crate::evidence::nominal;
 use nalgebra::{DMatrix, DVector};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use rand_distr::StandardNormal;
-use switchback_identify::free::{FreeError, InputMap, Settings, identify};
-use switchback_identify::record::{Criterion, Effort, Sensitivities, Stretch, bare_system, fit};
+use switchback_identify::free::FreeError;
+use switchback_identify::record::{Criterion, Effort, Sensitivities, Stretch, fit};
 use switchback_model::record::Record;
 use switchback_model::reversal::{ReversalRule, Timing};
 use switchback_model::system::{LAWS, LinearPart, Quantity, Scale, System, Term};
@@ -32,17 +33,6 @@ pub(super) fn of_term(system: &System, term: usize) -> Vec<Quantity> {
     parameters.filter(|(_, p)| p.free).map(|(k, _)| Quantity::Value(term, k)).collect()
 }
 
-/// The identified system without effects.
-pub(super) fn bare(records: &[&Record]) -> Result<Option<System>, FreeError> {
-    let settings = Settings {
-        whiten: false,
-        undersmooth: false,
-        input_noise: false,
-        ..Settings::new(InputMap::Borders)
-    };
-    Ok(bare_system(&identify(records, &settings)?.model))
-}
-
 /// Everything that fits of a surrogate are compared by.
 struct Search<'a> {
     stretches: &'a [Stretch],
@@ -58,7 +48,7 @@ struct Search<'a> {
 /// its gain exceeds the extended BIC's price of its parameters, and what an effect makes needless, a pole or another effect, is dropped.
 pub(super) fn surrogate(records: &[&Record], noise: f64) -> Result<Option<System>, FreeError> {
     let noisy: Vec<Record> = records.iter().enumerate().map(|(k, r)| with_noise(r, noise, k)).collect();
-    let Some(mut system) = bare(&noisy.iter().collect::<Vec<_>>())? else { return Ok(None) };
+    let Some(mut system) = nominal(&noisy.iter().collect::<Vec<_>>(), None)? else { return Ok(None) };
     let pairs: Vec<(&[f64], &[f64])> = records.iter().map(|r| (r.v(), r.y())).collect();
     let stretches = Stretch::all(&pairs);
     let samples = stretches.iter().map(|s| s.v.len()).sum();

@@ -34,7 +34,7 @@ impl Default for Losses {
 pub struct Thresholds {
     /// An effect is named.
     pub named: f64,
-    /// A class is told.
+    /// A class is reported.
     pub class: f64,
     /// An effect enters the shortlist.
     pub shortlist: f64,
@@ -52,7 +52,7 @@ impl Default for Thresholds {
 
 /// What is reported, by positions of outcomes, most probable first.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub enum Told {
+pub enum Decision {
     /// One effect.
     Named(usize),
     /// One of these, which nothing separates.
@@ -66,22 +66,22 @@ pub enum Told {
 /// What is reported of probabilities. Rows outside the training population are never named.
 ///
 /// Pure: it depends on its arguments alone. Ties go to the outcome that comes first.
-pub fn told(p: &[f64], outcomes: &[Outcome], thresholds: &Thresholds, is_outside: bool) -> Told {
+pub fn decide(p: &[f64], outcomes: &[Outcome], thresholds: &Thresholds, is_outside: bool) -> Decision {
     let mut order: Vec<usize> = (0..p.len()).collect();
     order.sort_by(|i, j| p[*j].total_cmp(&p[*i]).then(i.cmp(j)));
     if order.first().is_none_or(|first| outcomes[*first] != Outcome::Effect) {
-        return Told::None;
+        return Decision::None;
     }
     let effects: Vec<usize> = order.into_iter().filter(|i| outcomes[*i] == Outcome::Effect).collect();
     if !is_outside && p[effects[0]] >= thresholds.named {
-        return Told::Named(effects[0]);
+        return Decision::Named(effects[0]);
     }
     if !is_outside && let Some(class) = class(p, &effects, thresholds) {
-        return Told::Class(class);
+        return Decision::Class(class);
     }
     let likely = effects.iter().copied().filter(|i| p[*i] >= thresholds.shortlist);
     let shortlist: Vec<usize> = likely.take(thresholds.most).collect();
-    if shortlist.is_empty() { Told::None } else { Told::Shortlist(shortlist) }
+    if shortlist.is_empty() { Decision::None } else { Decision::Shortlist(shortlist) }
 }
 
 /// The fewest effects that together reach the threshold.
@@ -98,14 +98,14 @@ fn class(p: &[f64], effects: &[usize], thresholds: &Thresholds) -> Option<Vec<us
 
 impl Losses {
     /// What a report costs where the outcome of a position is true.
-    pub fn of(&self, told: &Told, truth: usize, outcomes: &[Outcome]) -> f64 {
-        match told {
-            Told::Named(effect) if *effect == truth => 0.0,
-            Told::Class(class) if class.contains(&truth) => self.member * (class.len() - 1) as f64,
-            Told::Named(_) | Told::Class(_) => self.wrong,
-            Told::Shortlist(_) => self.silence,
-            Told::None if outcomes[truth] == Outcome::Effect => self.silence,
-            Told::None => 0.0,
+    pub fn of(&self, decision: &Decision, truth: usize, outcomes: &[Outcome]) -> f64 {
+        match decision {
+            Decision::Named(effect) if *effect == truth => 0.0,
+            Decision::Class(class) if class.contains(&truth) => self.member * (class.len() - 1) as f64,
+            Decision::Named(_) | Decision::Class(_) => self.wrong,
+            Decision::Shortlist(_) => self.silence,
+            Decision::None if outcomes[truth] == Outcome::Effect => self.silence,
+            Decision::None => 0.0,
         }
     }
 }

@@ -2,7 +2,7 @@
 //!
 //! The weights are data ([`Posterior::read`]), written by a command of the laboratory. Evaluation is plain arithmetic in a fixed order. The
 //! probabilities are a weighted geometric mean of [boosted trees](Trees), a [network](Network) and a [ranker](Ranker), raised to a power that
-//! was fitted to a population. [`Novelty`] tells how far a row lies from what the posterior was trained on, [`told`] what is reported.
+//! was fitted to a population. [`Novelty`] tells how far a row lies from what the posterior was trained on, [`decide`] what is reported.
 
 mod bytes;
 mod decision;
@@ -16,7 +16,7 @@ mod standard;
 mod trees;
 mod weights;
 
-pub use decision::{Losses, Outcome, Thresholds, Told, told};
+pub use decision::{Decision, Losses, Outcome, Thresholds, decide};
 pub use error::PosteriorError;
 pub use file::VERSION;
 pub use network::{Layer, Network};

@@ -7,28 +7,28 @@ const OUTCOMES: [Outcome; 5] =
 #[test]
 fn sure_is_named_two_together_are_a_class_and_the_rest_is_a_shortlist() {
     let limits = Thresholds::default();
-    let report = |p: [f64; 5], is_outside: bool| told(&p, &OUTCOMES, &limits, is_outside);
-    assert_eq!(report([0.01, 0.97, 0.01, 0.005, 0.005], false), Told::Named(1));
-    assert_eq!(report([0.01, 0.97, 0.01, 0.005, 0.005], true), Told::Shortlist(vec![1]));
-    assert_eq!(report([0.57, 0.005, 0.41, 0.005, 0.01], false), Told::Class(vec![0, 2]));
-    assert_eq!(report([0.5, 0.1, 0.2, 0.1, 0.1], false), Told::Shortlist(vec![0, 2, 1]));
-    assert_eq!(report([0.2, 0.1, 0.2, 0.3, 0.2], false), Told::None);
-    assert_eq!(report([0.2, 0.1, 0.2, 0.1, 0.4], false), Told::None);
-    assert_eq!(told(&[], &[], &limits, false), Told::None);
+    let report = |p: [f64; 5], is_outside: bool| decide(&p, &OUTCOMES, &limits, is_outside);
+    assert_eq!(report([0.01, 0.97, 0.01, 0.005, 0.005], false), Decision::Named(1));
+    assert_eq!(report([0.01, 0.97, 0.01, 0.005, 0.005], true), Decision::Shortlist(vec![1]));
+    assert_eq!(report([0.57, 0.005, 0.41, 0.005, 0.01], false), Decision::Class(vec![0, 2]));
+    assert_eq!(report([0.5, 0.1, 0.2, 0.1, 0.1], false), Decision::Shortlist(vec![0, 2, 1]));
+    assert_eq!(report([0.2, 0.1, 0.2, 0.3, 0.2], false), Decision::None);
+    assert_eq!(report([0.2, 0.1, 0.2, 0.1, 0.4], false), Decision::None);
+    assert_eq!(decide(&[], &[], &limits, false), Decision::None);
 }
 
 #[test]
 fn losses_are_twenty_one_and_what_a_class_leaves_open() {
     let losses = Losses::default();
-    let of = |told: Told, truth: usize| losses.of(&told, truth, &OUTCOMES);
-    assert_eq!(of(Told::Named(1), 1), 0.0);
-    assert_eq!(of(Told::Named(1), 2), 20.0);
-    assert_eq!(of(Told::Named(1), 3), 20.0);
-    assert_eq!(of(Told::Class(vec![0, 1]), 1), 0.25);
-    assert_eq!(of(Told::Class(vec![0, 1]), 4), 20.0);
-    assert_eq!(of(Told::Shortlist(vec![0]), 0), 1.0);
-    assert_eq!(of(Told::None, 0), 1.0);
-    assert_eq!(of(Told::None, 3), 0.0);
+    let of = |decision: Decision, truth: usize| losses.of(&decision, truth, &OUTCOMES);
+    assert_eq!(of(Decision::Named(1), 1), 0.0);
+    assert_eq!(of(Decision::Named(1), 2), 20.0);
+    assert_eq!(of(Decision::Named(1), 3), 20.0);
+    assert_eq!(of(Decision::Class(vec![0, 1]), 1), 0.25);
+    assert_eq!(of(Decision::Class(vec![0, 1]), 4), 20.0);
+    assert_eq!(of(Decision::Shortlist(vec![0]), 0), 1.0);
+    assert_eq!(of(Decision::None, 0), 1.0);
+    assert_eq!(of(Decision::None, 3), 0.0);
 }
 
 proptest! {
@@ -38,14 +38,14 @@ proptest! {
     fn what_is_named_costs_less_than_silence(scores in prop::array::uniform5(-4.0..6.0_f64)) {
         let p = softmax(&scores);
         let losses = Losses::default();
-        let expected = |report: &Told| (0..5).map(|k| p[k] * losses.of(report, k, &OUTCOMES)).sum::<f64>();
-        let report = told(&p, &OUTCOMES, &Thresholds::default(), false);
-        if matches!(report, Told::Named(_) | Told::Class(_)) {
+        let expected = |report: &Decision| (0..5).map(|k| p[k] * losses.of(report, k, &OUTCOMES)).sum::<f64>();
+        let report = decide(&p, &OUTCOMES, &Thresholds::default(), false);
+        if matches!(report, Decision::Named(_) | Decision::Class(_)) {
             // Silence costs what the effects weigh.
             let silence: f64 = p[..3].iter().sum();
             prop_assert!(expected(&report) <= silence + 0.2, "{:?} {:?}", report, p);
         }
-        if let Told::Class(class) = &report {
+        if let Decision::Class(class) = &report {
             prop_assert!(class.iter().map(|k| p[*k]).sum::<f64>() >= 0.975);
         }
     }

@@ -11,8 +11,8 @@
 //!
 //! A confounded effect of the cause does not contradict it. How often such a cause is the right one is counted when the verdict is fitted.
 
+use crate::comparison::{Compared, Comparison, EffectEvidence};
 use crate::effect::Effect;
-use crate::evidence::{Compared, Comparison, EffectEvidence};
 
 /// Whether no other reading puts another effect before a cause. `likeliest` is the first effect of the fitted verdict, `is_no_cause` shows
 /// effects that are no candidates.

@@ -64,6 +64,15 @@ pub(super) fn out_of_fold(table: &Table, settings: &LearningSettings) -> (Vec<us
     (rows, all)
 }
 
+/// The rows of a table that models judged which had learnt neither their base nor their law, and the probabilities of their geometric mean.
+pub fn held_out(table: &Table, settings: &LearningSettings) -> (Table, Vec<Vec<f64>>) {
+    let (rows, found) = out_of_fold(table, settings);
+    let judged = table.of_rows(&rows);
+    let shares = shares(&found, &judged.labels, &judged.weights);
+    let p = mixed(&found, &shares);
+    (judged, p)
+}
+
 /// Learns a posterior: the models on all rows, their shares and the temperatures of each family on rows that were held out.
 pub fn fit(table: &Table, settings: &LearningSettings, provenance: &str) -> Posterior {
     let (rows, held_out) = out_of_fold(table, settings);

@@ -14,6 +14,7 @@ mod folds;
 mod grower;
 mod network;
 mod novelty;
+mod populations;
 mod ranker;
 mod scores;
 mod settings;
@@ -24,13 +25,14 @@ mod thresholds;
 pub use binned::Binned;
 pub use boosting::{Target, boost};
 pub use boosting_settings::BoostingSettings;
-pub use combined::{Models, fit};
+pub use combined::{Models, fit, held_out};
 pub use comparison::{Compared, Comparison, compare};
 pub use folds::{Fold, folds};
 pub use network::{NetworkSettings, train_network};
+pub use populations::{Population, markdown, populations};
 pub use scores::{Scores, scores};
 pub use settings::LearningSettings;
-pub use table::{Group, Table, TableError};
+pub use table::{Group, Table, TableError, Truth};
 pub use thresholds::{fit_thresholds, outcomes};
 
 #[cfg(test)]

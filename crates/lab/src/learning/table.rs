@@ -13,6 +13,19 @@ pub struct Group {
     pub base: String,
 }
 
+/// What is true of a row beside its class.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Truth {
+    /// Size of the cause.
+    pub size: f64,
+    /// What the rig was made to show.
+    pub kind: String,
+    /// Whether a model is given.
+    pub is_given: bool,
+    /// Names that are not wrong.
+    pub also: Vec<String>,
+}
+
 /// Rows of finite numbers in named columns, each with a class, a positive weight and a group.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Table {
@@ -28,6 +41,8 @@ pub struct Table {
     pub weights: Vec<f64>,
     /// Group of every row.
     pub groups: Vec<Group>,
+    /// What else is true of every row.
+    pub truths: Vec<Truth>,
 }
 
 /// Why there is no table.
@@ -36,7 +51,7 @@ pub struct Table {
 pub enum TableError {
     /// The header lacks a column.
     #[error(
-        "the table lacks the column `{0}`; it needs label, weight, family, law, base, and numbers behind them"
+        "the table lacks the column `{0}`; it needs label, weight, family, law, base, size, kind, given, also, and numbers behind them"
     )]
     Header(&'static str),
     /// A cell is no finite number, or a weight not positive.
@@ -72,10 +87,10 @@ pub enum TableError {
 }
 
 /// Columns before those of numbers.
-const LEADING: [&str; 5] = ["label", "weight", "family", "law", "base"];
+const LEADING: [&str; 9] = ["label", "weight", "family", "law", "base", "size", "kind", "given", "also"];
 
 impl Table {
-    /// Reads CSV with the columns `label,weight,family,law,base` and then named numbers. Classes stand in the order of the alphabet.
+    /// Reads CSV with the columns `label,weight,family,law,base,size,kind,given,also` and then named numbers. Classes stand in the order of the alphabet.
     ///
     /// # Errors
     /// [`TableError`].
@@ -93,7 +108,7 @@ impl Table {
         }
         let columns: Vec<String> = header.iter().skip(LEADING.len()).map(str::to_owned).collect();
         let (mut values, mut names) = (vec![Vec::new(); columns.len()], Vec::new());
-        let (mut weights, mut groups) = (Vec::new(), Vec::new());
+        let (mut weights, mut groups, mut truths) = (Vec::new(), Vec::new(), Vec::new());
         for record in reader.records() {
             let record = record.map_err(bad)?;
             let line = record.position().map_or(0, |place| place.line() as usize);
@@ -116,6 +131,12 @@ impl Table {
             weights.push(weight);
             let [family, law, base] = [2, 3, 4].map(|at| cell(at).to_owned());
             groups.push(Group { family, law, base });
+            truths.push(Truth {
+                size: number(5, "size")?,
+                kind: cell(6).to_owned(),
+                is_given: cell(7) == "yes",
+                also: cell(8).split(';').map(str::to_owned).collect(),
+            });
             for (at, (column, values)) in columns.iter().zip(&mut values).enumerate() {
                 values.push(number(LEADING.len() + at, column)?);
             }
@@ -127,7 +148,7 @@ impl Table {
             return Err(TableError::Few { rows: names.len(), classes: classes.len() });
         }
         let labels = names.iter().map(|name| classes.binary_search(name).expect("one of them")).collect();
-        Ok(Self { columns, values, classes, labels, weights, groups })
+        Ok(Self { columns, values, classes, labels, weights, groups, truths })
     }
 
     /// Number of rows.
@@ -150,6 +171,7 @@ impl Table {
             labels: rows.iter().map(|r| self.labels[*r]).collect(),
             weights: rows.iter().map(|r| self.weights[*r]).collect(),
             groups: rows.iter().map(|r| self.groups[*r].clone()).collect(),
+            truths: rows.iter().map(|r| self.truths[*r].clone()).collect(),
         }
     }
 }

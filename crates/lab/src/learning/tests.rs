@@ -2,7 +2,7 @@ use super::*;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use rand_distr::{Distribution, StandardNormal};
-use switchback_diagnose::posterior::{Losses, Outcome, Posterior, PosteriorError, Told, told};
+use switchback_diagnose::posterior::{Decision, Losses, Outcome, Posterior, PosteriorError, decide};
 use switchback_io::output::sha256;
 
 /// Four classes of which three have columns of their own, each large where its class holds.
@@ -18,7 +18,7 @@ fn table(rows: usize, seed: u64) -> Table {
         "slack.gain",
         "slack.share",
     ];
-    let mut text = format!("label,weight,family,law,base,{}\n", names.join(","));
+    let mut text = format!("label,weight,family,law,base,size,kind,given,also,{}\n", names.join(","));
     for row in 0..rows {
         let class = row % 4;
         let values: Vec<String> = names
@@ -32,7 +32,7 @@ fn table(rows: usize, seed: u64) -> Table {
         let law = if class == 2 { String::new() } else { format!("{}-{}", classes[class], row / 4 % 3) };
         let base = format!("base-{}", rng.random_range(0..6));
         text += &format!(
-            "{},1,{},{law},{base},{}\n",
+            "{},1,{},{law},{base},2,one,no,,{}\n",
             classes[class],
             ["made", "measured"][row % 2],
             values.join(",")
@@ -149,14 +149,14 @@ fn learners_learn_and_more_rows_teach_more() {
 
 #[test]
 fn a_cell_that_is_no_number_is_named() {
-    let header = "label,weight,family,law,base,x\n";
+    let header = "label,weight,family,law,base,size,kind,given,also,x\n";
     let bad = |text: &str| Table::from_csv(&format!("{header}{text}")).expect_err("refused").to_string();
-    assert_eq!(bad("a,1,f,l,b,x\n"), "line 2, column `x`: `x` is no finite number; correct it");
+    assert_eq!(bad("a,1,f,l,b,2,one,no,,x\n"), "line 2, column `x`: `x` is no finite number; correct it");
     assert_eq!(
-        bad("a,1,f,l,b,1\nb,0,f,l,b,1\n"),
+        bad("a,1,f,l,b,2,one,no,,1\nb,0,f,l,b,2,one,no,,1\n"),
         "line 3, column `weight`: `0` is no positive number; correct it"
     );
-    assert!(bad("a,1,f,l,b,1\n").contains("1 rows in 1 classes"));
+    assert!(bad("a,1,f,l,b,2,one,no,,1\n").contains("1 rows in 1 classes"));
     assert!(matches!(Table::from_csv("label,x\n"), Err(TableError::Header("weight"))));
 }
 
@@ -170,6 +170,6 @@ fn thresholds_rise_until_names_are_right() {
     let labels: Vec<usize> = (0..80).map(|k| if k < 40 && k % 2 == 0 { 1 } else { 0 }).collect();
     let (thresholds, loss) = fit_thresholds(&p, &labels, &outcomes, &Losses::default());
     assert!(thresholds.named > 0.9 && thresholds.named <= 0.97, "{thresholds:?}");
-    assert_eq!(told(&p[0], &outcomes, &thresholds, false), Told::Shortlist(vec![0, 2]));
+    assert_eq!(decide(&p[0], &outcomes, &thresholds, false), Decision::Shortlist(vec![0, 2]));
     assert!((loss - 0.5).abs() < 1e-12, "{loss}");
 }

@@ -1,6 +1,6 @@
 //! Thresholds of what is reported, fitted by losses.
 
-use switchback_diagnose::posterior::{Losses, Outcome, Thresholds, told};
+use switchback_diagnose::posterior::{Losses, Outcome, Thresholds, decide};
 
 /// Names of the outcomes that are no effect.
 const NOTHING: &str = "none";
@@ -30,7 +30,7 @@ pub fn fit_thresholds(
     let steps = || (0..=STEPS).rev().map(|k| 0.5 + 0.5 * k as f64 / STEPS as f64);
     let mean = |thresholds: &Thresholds| {
         let loss = |(p, label): (&Vec<f64>, &usize)| {
-            losses.of(&told(p, outcomes, thresholds, false), *label, outcomes)
+            losses.of(&decide(p, outcomes, thresholds, false), *label, outcomes)
         };
         p.iter().zip(labels).map(loss).sum::<f64>() / p.len().max(1) as f64
     };

@@ -8,6 +8,7 @@ mod borders;
 mod cause;
 mod draw;
 mod drive;
+mod evidence;
 mod family;
 mod made;
 mod measured;
@@ -22,6 +23,7 @@ mod summary;
 mod training_rig;
 
 pub use draw::draw;
+pub use evidence::EvidenceRow;
 pub use family::Family;
 pub use measured::MeasuredBases;
 pub use pairs::{Difference, PairTruth, Row, Side, TrainingPair, draw_pair};

@@ -12,8 +12,8 @@ use super::{
     Agreed, AgreedOn, Coefficient, FittedVerdict, Provenance, Shares, Weighed, agreed_on,
     degrades_validation, reported,
 };
+use crate::comparison::Compared;
 use crate::effect::Effect;
-use crate::evidence::Compared;
 use crate::verdict::answer::Verdict;
 use crate::verdict::by_fit;
 

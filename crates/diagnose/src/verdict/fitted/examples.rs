@@ -1,8 +1,8 @@
 //! Made evidence for tests.
 
 use super::calibration::{Example, Holds};
+use crate::comparison::{Compared, Comparison, EffectEvidence};
 use crate::effect::Effect;
-use crate::evidence::{Compared, Comparison, EffectEvidence};
 use crate::horizon::{Horizon, HorizonGain};
 use crate::testing::white;
 use crate::verdict::answer::Status;

@@ -27,8 +27,8 @@
 //! that none of these is the cause (`unexplained_by_rules`).
 
 use super::choice::Sign;
+use crate::comparison::{Compared, Comparison, EffectEvidence};
 use crate::effect::Effect;
-use crate::evidence::{Compared, Comparison, EffectEvidence};
 use crate::horizon::{Horizon, HorizonGain};
 use crate::verdict::answer::Status;
 

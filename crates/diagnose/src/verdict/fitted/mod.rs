@@ -29,8 +29,8 @@ use self::weighed::Weighed;
 
 use self::choice::probabilities;
 use self::features::{Alternatives, COEFFICIENTS, OF_ALL, OF_EFFECT};
+use crate::comparison::Compared;
 use crate::effect::Effect;
-use crate::evidence::Compared;
 use crate::verdict::agreement::agrees;
 use crate::verdict::answer::{Status, Verdict};
 use crate::verdict::by_fit;

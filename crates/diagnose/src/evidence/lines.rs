@@ -1,0 +1,51 @@
+//! Spectra of errors.
+
+use realfft::RealFftPlanner;
+use std::f64::consts::PI;
+
+/// Squared magnitudes of the transform of a signal, a Hann window on it, at `k/(2n)` for `k = 1…n`.
+pub(super) fn power(x: &[f64], is_windowed: bool) -> Vec<f64> {
+    let count = x.len();
+    let mean = x.iter().sum::<f64>() / count.max(1) as f64;
+    let transform = RealFftPlanner::<f64>::new().plan_fft_forward(2 * count.max(1));
+    let mut padded = transform.make_input_vec();
+    for (t, (p, x)) in padded.iter_mut().zip(x).enumerate() {
+        let window =
+            if is_windowed { 0.5 - 0.5 * libm::cos(2.0 * PI * t as f64 / count as f64) } else { 1.0 };
+        *p = (x - mean) * window;
+    }
+    let mut out = transform.make_output_vec();
+    transform.process(&mut padded, &mut out).expect("the lengths are the plan's");
+    out.iter().skip(1).map(|x| x.norm_sqr()).collect()
+}
+
+/// Medians of the logarithm over a window of 41 lines.
+pub(super) fn level(log_power: &[f64]) -> Vec<f64> {
+    const HALF: usize = 20;
+    let count = log_power.len();
+    (0..count)
+        .map(|k| {
+            let part = &log_power[k.saturating_sub(HALF)..(k + HALF + 1).min(count)];
+            part.iter().sum::<f64>() / part.len() as f64
+        })
+        .collect()
+}
+
+/// Longest piece that is transformed.
+const LONGEST: usize = 8192;
+/// Lines below this number are slow changes.
+const FIRST: usize = 16;
+
+/// The frequency, radians a sample, at which the longest record's error stands highest above its neighbours.
+pub(super) fn strongest_line(errors: &[Vec<f64>]) -> Option<f64> {
+    let longest = errors.iter().max_by_key(|e| e.len())?;
+    let power = power(&longest[..longest.len().min(LONGEST)], true);
+    if power.len() < 4 * FIRST {
+        return None;
+    }
+    let logs: Vec<f64> = power.iter().map(|p| libm::log(p + f64::MIN_POSITIVE)).collect();
+    let levels = level(&logs);
+    let above = |k: &usize| logs[*k] - levels[*k];
+    let k = (FIRST..power.len() - 1).max_by(|i, j| above(i).total_cmp(&above(j)))?;
+    Some(PI * (k + 1) as f64 / power.len() as f64)
+}

@@ -1,0 +1,56 @@
+//! Rows of the table that a posterior is learnt from.
+
+use super::training_rig::{Kind, TrainingRig};
+use crate::learning::{Group, Truth};
+use switchback_diagnose::evidence::Judged;
+
+/// Evidence of a training rig, with what is true of it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct EvidenceRow {
+    /// The outcome that holds.
+    pub label: String,
+    /// Where it comes from.
+    pub group: Group,
+    /// What else is true.
+    pub truth: Truth,
+    /// Named columns.
+    pub columns: Vec<(String, f64)>,
+}
+
+/// Size below which an effect leaves no trace that anybody could name: what changes less than a third of the noise adds a twentieth to its energy.
+const FAINT: f64 = 0.33;
+
+impl EvidenceRow {
+    /// By the nominal system that the program itself would identify; none where there is none.
+    pub fn of(rig: &TrainingRig) -> Option<Self> {
+        let judged = match rig.is_given {
+            true => {
+                let predicted =
+                    rig.rig.records.iter().map(|r| r.predicted.clone()).collect::<Option<Vec<_>>>()?;
+                Judged::beside(&rig.rig, &predicted)
+            }
+            false => Judged::identified(&rig.rig),
+        };
+        let truth = &rig.truth;
+        let is_faint = truth.size < FAINT;
+        let label = match truth.kind {
+            _ if is_faint => "none",
+            Kind::Nothing => "none",
+            Kind::Foreign => "unexplained",
+            Kind::One | Kind::Pair => truth.label()?,
+        };
+        let law = truth.effects.first().map_or(String::new(), |e| format!("{}: {}", e.effect, e.law));
+        let others = truth.effects.iter().map(|e| e.effect).chain(truth.own.iter().copied());
+        Some(Self {
+            label: label.to_owned(),
+            group: Group { family: truth.family.name().to_owned(), law, base: truth.base.clone() },
+            truth: Truth {
+                size: truth.size,
+                kind: truth.kind.name().to_owned(),
+                is_given: rig.is_given,
+                also: others.map(str::to_owned).collect(),
+            },
+            columns: judged.ok()??.evidence.columns,
+        })
+    }
+}
