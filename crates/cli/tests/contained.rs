@@ -132,6 +132,37 @@ fn a_guard_that_is_told_to_stop_clears_up_first() {
     place.nothing_is_left(Duration::ZERO);
 }
 
+/// Sends a signal to a process that is there.
+fn signal(signal: &str, id: u32) {
+    assert!(Command::new("kill").args([signal, &id.to_string()]).status().expect("kill").success());
+}
+
+#[test]
+fn the_folder_of_a_guard_that_was_killed_is_removed_by_the_diagnosis_or_the_next() {
+    let place = Place::new();
+    if place.fmu(SPIN).is_none() {
+        return;
+    }
+    let mut process = place.gap("60").spawn().expect("it starts");
+    place.wait_for_step(&mut process);
+    signal("-KILL", child(process.id()).expect("a guard"));
+    assert_eq!(process.wait().expect("it ends").code(), Some(2));
+    place.nothing_is_left(Duration::from_secs(10));
+
+    let mut process = place.gap("60").spawn().expect("it starts");
+    place.wait_for_step(&mut process);
+    let guard = child(process.id()).expect("a guard");
+    // A guard that stands still cannot clear up once the diagnosis has ended.
+    signal("-STOP", guard);
+    signal("-KILL", process.id());
+    process.wait().expect("it ends");
+    signal("-KILL", guard);
+    assert_eq!(listing(&place.temporary()).len(), 1, "its folder");
+    place.fmu("abort()").expect("there was a compiler");
+    assert_eq!(place.gap("60").output().expect("it runs").status.code(), Some(2));
+    place.nothing_is_left(Duration::from_secs(10));
+}
+
 #[test]
 fn what_an_fmu_begins_does_not_outlive_the_diagnosis() {
     let place = Place::new();

@@ -1,8 +1,8 @@
 //! The process between this program and foreign code, which leaves nothing of it behind.
 
+use crate::folder::PrivateFolder;
 use crate::system;
 use std::ffi::OsString;
-use std::fs::Permissions;
 use std::io::{self, BufRead, Read, Write};
 use std::path::Path;
 use std::process::{Child, Command, Stdio};
@@ -26,7 +26,7 @@ const LARGEST_JOB: u64 = 4 << 30;
 /// If there can be no such folder or process, or it is given no job.
 pub fn guard(fmu: &Path, is_stopped: impl Fn() -> bool) -> io::Result<u8> {
     system::adopt_orphans();
-    let folder = private_folder("switchback-fmu-")?;
+    let folder = PrivateFolder::new("fmu")?;
     let mut simulation = begin(fmu, folder.path())?;
     let is_left = Arc::new(AtomicBool::new(false));
     pass_on_the_job(&mut simulation, is_left.clone());
@@ -84,19 +84,6 @@ fn watched(mut process: Child, is_left: &AtomicBool, is_stopped: impl Fn() -> bo
     };
     system::end_all(&mut process);
     Ok(ended.map_or(1, system::code))
-}
-
-/// A folder that nobody else can read.
-pub(crate) fn private_folder(prefix: &str) -> io::Result<tempfile::TempDir> {
-    let mut named = tempfile::Builder::new();
-    named.prefix(prefix);
-    #[cfg(unix)]
-    {
-        use std::os::unix::fs::PermissionsExt;
-        named.permissions(Permissions::from_mode(0o700)).tempdir()
-    }
-    #[cfg(not(unix))]
-    named.tempdir()
 }
 
 fn begin(fmu: &Path, folder: &Path) -> io::Result<Child> {

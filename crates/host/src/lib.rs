@@ -16,6 +16,7 @@
 mod archive;
 mod description;
 mod error;
+mod folder;
 mod functions;
 mod guard;
 mod map;

@@ -1,5 +1,6 @@
 //! Foreign processes, as the process sees them that began their guards.
 
+use crate::folder;
 use crate::messages::{End, Job, heard};
 use crate::system;
 use std::collections::{BTreeMap, VecDeque};
@@ -175,6 +176,10 @@ impl Guard {
                 Err(error) => break Err(error),
             }
         };
+        // A guard that was killed has left its folder.
+        if status.as_ref().is_ok_and(|status| status.code().is_none()) {
+            folder::sweep();
+        }
         let mut all = guards();
         all.pipes.remove(&self.child.id());
         let is_stopping = all.is_stopping;

@@ -1,6 +1,6 @@
 //! A command that reads lines and answers by lines, in a process of its own.
 
-use crate::guard::private_folder;
+use crate::folder::PrivateFolder;
 use crate::process::{CLEARING, Guard};
 use crate::system;
 use std::ffi::OsString;
@@ -34,6 +34,8 @@ pub struct Worker {
     printed: Receiver<String>,
     block: File,
     place: PathBuf,
+    /// The guard removes it, and this process where the guard was killed.
+    _folder: PrivateFolder,
 }
 
 impl Worker {
@@ -42,17 +44,15 @@ impl Worker {
     /// # Errors
     /// If the system refuses a process or a folder.
     pub fn begin(command: &[String], longest: usize) -> io::Result<Self> {
-        let folder = private_folder("switchback-method-")?;
+        let folder = PrivateFolder::new("method")?;
         let place = folder.path().join("block");
         let block = File::create_new(&place)?;
         let words = command.iter().map(OsString::from);
         let arguments = [OsString::from("method-host"), folder.path().into()].into_iter().chain(words);
         let mut guard = Guard::begin(arguments)?;
-        // From here on the folder is the guard's to remove.
-        let _path = folder.keep();
         let printed = guard.tail();
         let heard = listen(guard.output(), longest);
-        Ok(Self { guard, heard, printed, block, place })
+        Ok(Self { guard, heard, printed, block, place, _folder: folder })
     }
 
     /// A file for numbers that lines speak of: in a folder that nobody else reads, and gone when the worker ends.
