@@ -157,16 +157,24 @@ fn no_file_is_waited_for_without_end_or_read_without_end() {
         ]);
     }
     let refused = |line: &str| {
-        // A stream is read up to 1 GiB, and copied once.
-        let (code, out, reported) = bash(&folder, &format!("ulimit -v 4000000; timeout 100 {line}"));
+        // A stream is read up to 256 MiB, and copied once.
+        let (code, out, reported) = bash(&folder, &format!("ulimit -v 1500000; timeout 100 {line}"));
         assert_eq!(code, Some(2), "{line}: {out}{reported}");
         assert!(reported.starts_with("error: ") && reported.contains("help: "), "{line}: {reported}");
     };
     let (fifos, devices): (Vec<&String>, Vec<&String>) = cases.iter().partition(|line| line.contains("fifo"));
     // Each may wait for ten seconds, and needs no memory.
     std::thread::scope(|scope| fifos.into_iter().for_each(|line| drop(scope.spawn(|| refused(line)))));
-    // Each may take 2 GiB, and waits for nothing.
+    // Each may take its memory, and waits for nothing.
     devices.into_iter().for_each(|line| refused(line));
+    for line in [
+        "switchback identify <(yes 1,2)",
+        "switchback compare study <(yes [)",
+        "switchback simulate <(yes 1) descendant.csv",
+        "switchback - --out none < <(yes '# nothing')",
+    ] {
+        refused(line);
+    }
     assert!(!folder.path("merged").exists() && !folder.path("a.fmu").exists());
 }
 

@@ -5,7 +5,7 @@ use roxmltree::{Document, Node};
 use std::env::consts::DLL_SUFFIX;
 use std::path::{Path, PathBuf};
 use switchback_io::export;
-use switchback_io::input::{names, read_text};
+use switchback_io::input::{TextKind, names, read_text};
 
 /// A real variable that can be played or read.
 #[derive(Debug, Clone, PartialEq)]
@@ -32,7 +32,7 @@ impl Description {
     pub(crate) fn read(fmu: &Path, folder: &Path) -> Result<Self, FmuError> {
         let fail = |what: String, remedy: &str| FmuError::new(fmu, what, remedy);
         let other = "export it as an FMU 2.0 for co-simulation";
-        let text = read_text(&folder.join("modelDescription.xml"))
+        let text = read_text(&folder.join("modelDescription.xml"), TextKind::Model)
             .map_err(|error| fail(error.to_string(), other))?;
         let document =
             Document::parse(&text).map_err(|error| fail(format!("modelDescription.xml: {error}"), other))?;

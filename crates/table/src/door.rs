@@ -2,7 +2,7 @@
 //!
 //! | opened by | what is accepted | bound |
 //! |---|---|---|
-//! | [`read_within`], [`read_text`](crate::read_text) | files, and streams: pipes, devices, the standard input | bytes; of a stream also 10 s of silence |
+//! | [`read_within`], [`read_text`](crate::read_text) | files, and streams: pipes, devices, the standard input | bytes, by [kind](crate::TextKind); of a stream also 10 s of silence, and 256 MiB |
 //! | [`open`] | files that are read piece by piece | none: no piece is kept |
 //! | [`regular`] | files that are read here and there, as archives | left to the reader |
 //! | [`own`] | files that the program wrote, as lists of hashes and sums | 4 GiB |
@@ -23,11 +23,11 @@ const MOST_NAMES: usize = 1_000_000;
 /// The bytes of a file, or of a stream as far as it goes within bounds.
 ///
 /// # Errors
-/// [`FileError`] if there is no file, it is a folder, holds more than `most` bytes, or cannot be read; a stream that is silent for 10 s or goes
-/// on beyond 1 GiB.
+/// [`FileError`] if there is no file, it is a folder, holds more than `most` bytes, or cannot be read; a stream that is silent for 10 s, goes on
+/// beyond that or 256 MiB, or is no text where it should be.
 pub fn read_within(path: &Path, most: u64) -> Result<Vec<u8>, FileError> {
     if is_stream(path) {
-        return stream::read(path);
+        return stream::read(path, most);
     }
     let file = open(path)?;
     let unreadable = |source| FileError::Unreadable { path: path.display().to_string(), source };

@@ -45,13 +45,22 @@ pub enum FileError {
         seconds: u64,
     },
     /// A stream goes on for too long.
-    #[error("{path}: goes on beyond {gibibytes} GiB, the most that is read from a stream")]
+    #[error("{path}: goes on beyond {mebibytes} MiB, the most that is read of such a stream")]
     #[diagnostic(help("give a file, or a stream that ends: a device as /dev/zero never does"))]
     Endless {
         /// The path as given.
         path: String,
         /// The limit.
-        gibibytes: usize,
+        mebibytes: u64,
+    },
+    /// A stream is no text, and nothing else that is read.
+    #[error("{path}: byte {byte} is zero, as in no text")]
+    #[diagnostic(help("give a file, or a stream that is text: a device as /dev/zero is none"))]
+    Zero {
+        /// The path as given.
+        path: String,
+        /// The first such byte, from 1.
+        byte: usize,
     },
     /// It holds more than is read.
     #[error("{path}: more than {most} bytes of it would be in memory at once")]

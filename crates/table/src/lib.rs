@@ -10,9 +10,11 @@ pub mod signals;
 pub mod stream;
 pub mod table;
 mod text_file;
+mod text_kind;
 mod text_pieces;
 
 pub use closest::closest;
 pub use file_error::FileError;
 pub use text_file::read_text;
+pub use text_kind::TextKind;
 pub use text_pieces::read_decoded;

@@ -2,17 +2,15 @@
 
 use super::door::read_within;
 use super::file_error::FileError;
+use super::text_kind::TextKind;
 use std::path::Path;
-
-/// Most bytes of a text: a study of a thousand cells has a few million.
-const LONGEST: u64 = 1 << 30;
 
 /// Reads a file as UTF-8 text; a byte order mark at its start is dropped.
 ///
 /// # Errors
-/// [`FileError`] if there is no file, it is a folder, cannot be read, holds more than 1 GiB, or is no UTF-8; a stream that is silent for 10 s.
-pub fn read_text(path: &Path) -> Result<String, FileError> {
-    let bytes = read_within(path, LONGEST)?;
+/// [`FileError`] if there is no file, it is a folder, cannot be read, holds more than its kind may, or is no UTF-8; a stream that is silent for 10 s.
+pub fn read_text(path: &Path, kind: TextKind) -> Result<String, FileError> {
+    let bytes = read_within(path, kind.most())?;
     match String::from_utf8(bytes) {
         Ok(text) => Ok(match text.strip_prefix('\u{feff}') {
             Some(rest) => rest.to_owned(),

@@ -43,7 +43,7 @@ impl<'a> TextPieces<'a> {
     /// [`FileError`] if there is no file, it is a folder, or cannot be read.
     pub(crate) fn open(path: &Path) -> Result<Self, FileError> {
         let source: Box<dyn Read> = match is_stream(path) {
-            true => Box::new(Cursor::new(stream::read(path)?)),
+            true => Box::new(Cursor::new(stream::read(path, stream::LONGEST)?)),
             false => Box::new(open(path)?),
         };
         Self::of(path.display().to_string(), source)

@@ -12,7 +12,7 @@ use std::path::Path;
 use std::sync::mpsc;
 use std::thread;
 use std::time::{Duration, Instant};
-use switchback_io::input::{read_text, stream};
+use switchback_io::input::{TextKind, read_text, stream};
 use switchback_io::output::{FolderError, OutputFolder, note, sha256};
 use switchback_io::provenance::{PROVENANCE_FILE, Provenance};
 use switchback_lab::examination::{
@@ -97,7 +97,7 @@ pub(crate) fn run_part(
     order: Order<'_>,
 ) -> CommandResult {
     let provenance = Provenance::begin(BUILD, order.threads.at_once());
-    let text = read_text(scenario)?;
+    let text = read_text(scenario, TextKind::Settings)?;
     let study = examination.study();
     let default = Path::new("reports").join(format!("{}-part-{}-of-{}", study.name, shard.number, shard.of));
     let out = order.out.unwrap_or(&default);

@@ -4,7 +4,7 @@ use super::Subject;
 use super::model_file::{self, Given};
 use super::subject::{Source, SubjectError, judged, with_predictions};
 use crate::identification::EstimatedSystem;
-use crate::input::read_text;
+use crate::input::{TextKind, read_text};
 use crate::model::{ModelError, ModelFile, System};
 use std::path::{Path, PathBuf};
 use switchback_diagnose::{Model, NominalModel};
@@ -26,7 +26,7 @@ impl GivenModel {
     /// # Errors
     /// [`SubjectError`] if the file is neither.
     pub fn read(file: &Path) -> Result<Self, SubjectError> {
-        Self::of_text(file, &read_text(file).map_err(ModelError::from)?)
+        Self::of_text(file, &read_text(file, TextKind::Model).map_err(ModelError::from)?)
     }
 
     /// The same from a text; `file` is what messages call it.

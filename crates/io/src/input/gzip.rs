@@ -7,12 +7,12 @@ use miette::Diagnostic;
 use std::ffi::OsStr;
 use std::io::{Read, Write};
 use std::path::{Path, PathBuf};
-use switchback_table::FileError;
 use switchback_table::door::read_within;
+use switchback_table::{FileError, TextKind};
 use thiserror::Error;
 
 /// The most bytes that a compressed text may hold. Results of a study have a few million.
-const LIMIT: u64 = 1 << 30;
+const LIMIT: u64 = TextKind::Results.most();
 
 /// Why a compressed file gives no text. The first value is the file.
 #[derive(Debug, Error, Diagnostic)]
@@ -44,7 +44,7 @@ pub fn is_gzip(path: &Path) -> bool {
 /// The text of a compressed file.
 ///
 /// # Errors
-/// [`GzipError`] if it cannot be read, is damaged, or holds more than 1 GiB or no text.
+/// [`GzipError`] if it cannot be read, is damaged, or holds more than [results](TextKind::Results) may, or no text.
 pub fn read(path: &Path) -> Result<String, GzipError> {
     inflated(path, read_within(path, LIMIT)?.as_slice(), LIMIT)
 }

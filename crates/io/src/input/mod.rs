@@ -10,6 +10,7 @@ mod two_numbers;
 
 pub use kinds::FileKind;
 pub use switchback_table::FileError;
+pub use switchback_table::TextKind;
 pub use switchback_table::closest;
 pub use switchback_table::door::{names, own, program, read_within, regular};
 pub use switchback_table::read_text;

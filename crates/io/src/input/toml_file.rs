@@ -1,7 +1,7 @@
 //! A TOML file, and errors that point into it.
 
 use super::terms::Terms;
-use super::{FileError, closest, read_text};
+use super::{FileError, TextKind, closest, read_text};
 use miette::{Diagnostic, NamedSource, SourceSpan};
 use serde::de::DeserializeOwned;
 use std::ops::Range;
@@ -43,7 +43,7 @@ impl TomlFile {
     /// # Errors
     /// [`FileError`] if it cannot be read as text.
     pub fn read(path: &Path) -> Result<Self, FileError> {
-        Ok(Self { path: path.to_owned(), text: read_text(path)? })
+        Ok(Self { path: path.to_owned(), text: read_text(path, TextKind::Settings)? })
     }
 
     /// A file given as text; `path` is what messages call it.

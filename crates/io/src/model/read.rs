@@ -3,7 +3,7 @@
 use super::file::{Header, ModelFile, SCHEMA};
 use super::system::System;
 use crate::input::json_file::{self, JsonError};
-use crate::input::{FileError, read_text};
+use crate::input::{FileError, TextKind, read_text};
 use miette::Diagnostic;
 use serde::Deserialize;
 use serde::de::{DeserializeOwned, IgnoredAny};
@@ -67,7 +67,7 @@ struct WireFile<M> {
 /// # Errors
 /// [`ModelError`] if the file is no JSON, of another format or version, or its parts contradict each other.
 pub fn read(path: &Path) -> Result<ModelFile, ModelError> {
-    of_text(path, &read_text(path)?)
+    of_text(path, &read_text(path, TextKind::Model)?)
 }
 
 /// The model that a text holds; `path` is what messages call it.

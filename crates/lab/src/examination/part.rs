@@ -9,7 +9,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
-use switchback_io::input::{read_text, stream};
+use switchback_io::input::{TextKind, read_text, stream};
 use switchback_io::output::{Artefacts, sha256};
 use switchback_study::Shard;
 use switchback_study::parts::{MergeError, PART_FILE, Piece, check_whole, label, label_hash, label_text};
@@ -96,13 +96,14 @@ impl Part {
         let name = || folder.display().to_string();
         let changed = |file| MergeError::Changed { folder: name(), file };
         let label: Label = label(folder)?;
-        let scenario = read_text(&folder.join(&label.scenario))?;
-        let keys = read_text(&folder.join(KEY_FILE))?;
+        let scenario = read_text(&folder.join(&label.scenario), TextKind::Settings)?;
+        let keys = read_text(&folder.join(KEY_FILE), TextKind::Results)?;
         if sha256(&keys) != label.key_sha256 {
             return Err(changed(KEY_FILE));
         }
         let cases = read_cases(folder)?;
-        if label != label.sealed([&scenario, &keys, &read_text(&folder.join(CASES_FILE))?]) {
+        if label != label.sealed([&scenario, &keys, &read_text(&folder.join(CASES_FILE), TextKind::Results)?])
+        {
             return Err(MergeError::Unsealed { folder: name() });
         }
         let judged: Vec<Option<usize>> = cases.iter().map(|case| Some(case.id)).collect();
@@ -155,7 +156,7 @@ impl Part {
 /// [`MergeError`] if there are none, or they are not as they were written.
 pub fn read_cases(folder: &Path) -> Result<Vec<Case>, MergeError> {
     // Cases hold names, which live as long as the program: so does the text, which is read once.
-    let text: &'static str = read_text(&folder.join(CASES_FILE))?.leak();
+    let text: &'static str = read_text(&folder.join(CASES_FILE), TextKind::Results)?.leak();
     let cases = text.lines().map(serde_json::from_str).collect::<Result<_, _>>();
     cases.map_err(|_| MergeError::Changed { folder: folder.display().to_string(), file: CASES_FILE })
 }

@@ -7,7 +7,7 @@ use serde_json::Value;
 use std::collections::BTreeMap;
 use std::io;
 use std::path::{Path, PathBuf};
-use switchback_io::input::{gzip, json_file, names, read_text};
+use switchback_io::input::{TextKind, gzip, json_file, names, read_text};
 use switchback_io::output::{Artefacts, verify};
 use switchback_study::results::{COMPRESSED, ResultsError};
 
@@ -92,7 +92,7 @@ impl Files {
         for name in found.into_iter().filter(|name| is_shown(name) && name != COMPRESSED) {
             let path = folder.join(&name);
             if path.is_file() {
-                texts.insert(name, read_text(&path)?);
+                texts.insert(name, read_text(&path, TextKind::Results)?);
             }
         }
         let compressed = folder.join(COMPRESSED);

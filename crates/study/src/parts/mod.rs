@@ -11,7 +11,7 @@ use crate::Shard;
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};
-use switchback_io::input::read_text;
+use switchback_io::input::{TextKind, read_text};
 use switchback_io::output::{sha256, stamped};
 
 /// What shows that a folder holds a part.
@@ -45,7 +45,7 @@ pub fn label<L: DeserializeOwned>(folder: &Path) -> Result<L, MergeError> {
     if !folder.join(PART_FILE).is_file() {
         return Err(no_part());
     }
-    let text = read_text(&folder.join(PART_FILE))?;
+    let text = read_text(&folder.join(PART_FILE), TextKind::Settings)?;
     let written: Written<L> = serde_json::from_str(&text).map_err(|_| no_part())?;
     if written.schema == PART_SCHEMA { Ok(written.label) } else { Err(no_part()) }
 }

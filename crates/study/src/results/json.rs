@@ -9,7 +9,7 @@ use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use switchback_io::input::gzip::{self, GzipError};
 use switchback_io::input::json_file::{self, JsonError};
-use switchback_io::input::{FileError, read_text};
+use switchback_io::input::{FileError, TextKind, read_text};
 use switchback_io::output::{NotWhole, verify};
 use thiserror::Error;
 
@@ -85,7 +85,7 @@ pub fn read(path: &Path) -> Result<Results, ResultsError> {
     let text = if gzip::is_gzip(&path) {
         gzip::read(&path)?
     } else {
-        read_text(&path).map_err(|reported| ResultsError::Unreadable { reported })?
+        read_text(&path, TextKind::Results).map_err(|reported| ResultsError::Unreadable { reported })?
     };
     parse(&path, &text)
 }

@@ -6,7 +6,7 @@ use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::{Deserialize, Serialize};
 use std::borrow::Cow;
 use std::path::{Path, PathBuf};
-use switchback_io::input::{FileError, own, read_text, stream};
+use switchback_io::input::{FileError, TextKind, own, read_text, stream};
 use switchback_io::output::{Artefacts, stamped_schema};
 use switchback_io::provenance::PROVENANCE_FILE;
 use switchback_lab::examination;
@@ -72,7 +72,7 @@ impl Part {
     /// A part that is to be run.
     pub(super) fn new(order: Order<'_>, engine: Engine, shard: Option<Shard>) -> Result<Self, FileError> {
         let (scenario, command) = (stream::copy_name(order.file), order.command.to_owned());
-        let (text, sha256) = (read_text(order.file)?, String::new());
+        let (text, sha256) = (read_text(order.file, TextKind::Settings)?, String::new());
         let label = Label { scenario, command, engine, shard, sha256 }.sealed(&text);
         Ok(Self { folder: PathBuf::new(), label, text })
     }
@@ -116,7 +116,7 @@ impl Part {
     /// Reads the folder of a part, but for what its replicates left behind: of all parts that may be more than the memory holds.
     pub(super) fn read(folder: &Path) -> Result<Self, MergeError> {
         let label: Label = label(folder)?;
-        let text = read_text(&folder.join(&label.scenario))?;
+        let text = read_text(&folder.join(&label.scenario), TextKind::Settings)?;
         if label != label.sealed(&text) {
             return Err(MergeError::Unsealed { folder: folder.display().to_string() });
         }
