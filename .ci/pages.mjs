@@ -1,4 +1,5 @@
 // node pages.mjs CHROMIUM FOLDER [SHOTS]: looks at every FOLDER/*/index.html; SHOTS gets pictures of them.
+import { spawnSync } from "node:child_process";
 import { readdirSync, existsSync, mkdirSync, mkdtempSync, readFileSync, rmSync, statSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join, resolve } from "node:path";
@@ -128,16 +129,69 @@ const use = async (page, reported) => {
   }
 };
 
-// Nothing runs on a page but its own script: one that is put into it later does not.
-const foreign = async file => {
+// Drawings that once ran a script where a page took them in, and elements that do so in every way that a browser knows.
+const HOSTILE = [
+  `<svg a=">" onload="document.title='PWNED'" width="9" height="9"></svg>`,
+  `<svg/onload="document.title='PWNED'" width="9" height="9"></svg>`,
+  "<svg a=\"'\" onload=document.title=`PWNED` b=\"'\" width=\"9\" height=\"9\"></svg>",
+  `<svg xmlns="http://www.w3.org/2000/svg"><script>document.title='PWNED'</script></svg>`,
+  `<svg xmlns="http://www.w3.org/2000/svg"><a href="javascript:document.title='PWNED'"><text y="9">x</text></a></svg>`,
+  `<svg xmlns="http://www.w3.org/2000/svg"><animate onbegin="document.title='PWNED'" attributeName="x" dur="1s"/></svg>`,
+  `<svg xmlns="http://www.w3.org/2000/svg"><foreignObject><iframe srcdoc="<script>parent.document.title='PWNED'</script>"></iframe></foreignObject></svg>`,
+  `<svg xmlns="http://www.w3.org/2000/svg"><image href="x" onerror="document.title='PWNED'"/></svg>`,
+  `<script>document.title='PWNED'</script><img src="x" onerror="document.title='PWNED'">`,
+];
+
+// Whether a script that is not a page's own runs where this page is opened, and its links are followed.
+const runs = async (file, rules) => {
   const page = await browser.newPage();
-  const attacked = join(profile, "attacked.html");
-  writeFileSync(attacked, readFileSync(file, "utf8").replace("<main", "<svg onload=\"document.title='PWNED'\"></svg><script>document.title='PWNED'</script><main"));
-  await page.goto(pathToFileURL(attacked).href);
+  await page.setBypassCSP(!rules);
+  let asked = false;
+  page.on("dialog", dialog => { asked = true; dialog.dismiss(); });
+  await page.goto(pathToFileURL(file).href);
+  for (const link of await page.$$("a[href^='javascript'], svg a")) await link.evaluate(link => link.dispatchEvent(new MouseEvent("click", { bubbles: true })));
+  await new Promise(resolve => setTimeout(resolve, 100));
   const title = await page.title();
   await page.close();
-  return title === "PWNED";
+  return asked || title === "PWNED";
 };
+
+// Nothing runs on a page but its own script: what is put into it later does not, by the page's own rules.
+const foreign = async file => {
+  const attacked = join(profile, "attacked.html");
+  let found = false;
+  for (const hostile of HOSTILE) {
+    writeFileSync(attacked, readFileSync(file, "utf8").replace("<main", `${hostile}<main`));
+    found ||= await runs(attacked, true);
+  }
+  return found;
+};
+
+// A browser that ran none of them without such rules would show nothing.
+const bare = join(profile, "bare.html");
+let harmful = 0;
+for (const hostile of HOSTILE) {
+  writeFileSync(bare, `<!doctype html><title>bare</title><main>${hostile}</main>`);
+  harmful += Number(await runs(bare, false));
+}
+console.log(`${harmful} of ${HOSTILE.length} hostile drawings run a script on a page without rules`);
+if (harmful < 6) faults.push(`only ${harmful} hostile drawings run anything: they prove nothing`);
+
+// A report whose drawings were changed: no page, or one on which nothing of them runs.
+const [program, report] = process.argv.slice(5);
+if (program) {
+  const figures = readdirSync(report).filter(name => name.endsWith(".svg")).map(name => join(report, name));
+  for (const hostile of HOSTILE) {
+    figures.forEach(figure => writeFileSync(figure, hostile));
+    rmSync(join(report, "index.html"), { force: true });
+    rmSync(join(report, ".switchback.sha256"), { force: true });
+    const { status } = spawnSync(program, ["report", report, "--quiet", "--force"], { stdio: "ignore" });
+    const made = existsSync(join(report, "index.html"));
+    if (status !== 0 && status !== 2) faults.push(`report ends with ${status} where a drawing is ${hostile}`);
+    if (made && await runs(join(report, "index.html"), true)) faults.push(`a page that took in ${hostile} runs it`);
+    if (made && await runs(join(report, "index.html"), false)) faults.push(`a page that took in ${hostile} runs it where its rules are switched off`);
+  }
+}
 
 for (const name of readdirSync(folder).filter(name => existsSync(join(folder, name, "index.html"))).sort()) {
   const file = resolve(folder, name, "index.html");
