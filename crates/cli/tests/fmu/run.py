@@ -6,10 +6,13 @@ import numpy as np
 from fmpy import extract, read_model_description, simulate_fmu
 from fmpy.fmi1 import FMICallException
 from fmpy.fmi2 import FMU2Slave
+from fmpy.validation import validate_fmu
 
 fmu, inputs = sys.argv[1:]
-# Against the schema of the standard, too.
-description = read_model_description(fmu, validate=True)
+# Against the schema of the standard, and what it says in words: names, units, start values, the structure of the model.
+problems = validate_fmu(fmu)
+assert not problems, problems
+description = read_model_description(fmu)
 variables = {one.name: one for one in description.modelVariables}
 h = description.defaultExperiment.stepSize and float(description.defaultExperiment.stepSize)
 v = np.loadtxt(inputs, skiprows=1)
