@@ -4,6 +4,7 @@ use crate::common::{Folder, listing};
 use serde_json::Value;
 use std::fs;
 use switchback_diagnose::Effect;
+use switchback_io::rig::{ColumnNames, Request};
 
 fn diagnosed(folder: &Folder, more: &[&str]) -> Value {
     let arguments = [&["gap", "rig.toml", "--json"], more].concat();
@@ -164,6 +165,44 @@ fn the_report_folder_holds_the_object_and_the_figures() {
     assert_eq!(listing(&folder.path("report")), expected);
     let written = fs::read_to_string(folder.path("report/gap.json")).expect("it is there");
     assert_eq!(serde_json::from_str::<Value>(&written).expect("JSON"), page);
+}
+
+#[test]
+fn a_log_for_viewers_holds_what_the_series_do() {
+    let folder = Folder::with_good_rig();
+    let run = |words: &[&str]| folder.switchback(words).output().expect("it runs");
+    let output = run(&["gap", "rig.toml", "--out", "report", "--mcap", "--quiet"]);
+    let reported = String::from_utf8_lossy(&output.stderr).into_owned();
+    if !switchback_io::model::WRITES_LOGS {
+        assert_eq!(output.status.code(), Some(2), "{reported}");
+        assert!(reported.contains("--features mcap") && !folder.path("report").exists(), "{reported}");
+        return;
+    }
+    assert_eq!(output.status.code(), Some(0), "{reported}");
+    let text = fs::read_to_string(folder.path("report/series.csv")).expect("it is there");
+    let rows = text.lines().skip(1).filter(|line| line.starts_with("again,"));
+    let cell = |line: &str, k: usize| line.split(',').nth(k).and_then(|cell| cell.parse().ok());
+    for (name, column) in [("measured", 4), ("nominal", 5)] {
+        let wanted: Vec<[f64; 2]> =
+            rows.clone().map(|line| [cell(line, 3).expect("v"), cell(line, column).expect("y")]).collect();
+        let named = |name: &str| Some(format!("/again.{name}"));
+        let request = Request {
+            data: vec![folder.path("report/series.mcap")],
+            columns: ColumnNames { time: None, input: named("input"), output: named(name) },
+            ..Request::default()
+        };
+        let rig = request.load("gap").unwrap_or_else(|error| panic!("{error:?}")).rig;
+        let read: Vec<[f64; 2]> = rig
+            .records
+            .iter()
+            .flat_map(|r| r.record.v().iter().zip(r.record.y()).map(|(v, y)| [*v, *y]).collect::<Vec<_>>())
+            .collect();
+        assert_eq!(read.len(), wanted.len(), "{name}");
+        let near =
+            |(read, wanted): (&[f64; 2], &[f64; 2])| (0..2).all(|k| (read[k] - wanted[k]).abs() < 1e-9);
+        assert!(read.iter().zip(&wanted).all(near), "{name}");
+    }
+    assert_eq!(run(&["report", "report", "--quiet"]).status.code(), Some(0), "the page can be drawn again");
 }
 
 #[test]

@@ -15,6 +15,7 @@ mod text_pieces;
 
 pub use closest::closest;
 pub use file_error::FileError;
+pub use log::{LogField, LogTopic, WRITES_LOGS, log_bytes};
 pub use text_file::read_text;
 pub use text_kind::TextKind;
 pub use text_pieces::read_decoded;

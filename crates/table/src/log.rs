@@ -14,7 +14,12 @@ mod definition;
 mod messages;
 #[cfg(all(test, feature = "mcap"))]
 mod tests;
+mod topic;
 mod unreadable;
+#[cfg(feature = "mcap")]
+mod write;
+
+pub use topic::{LogField, LogTopic, WRITES_LOGS, log_bytes};
 
 /// How a log begins.
 const MAGIC: &[u8] = b"\x89MCAP0\r\n";

@@ -6,6 +6,7 @@ use crate::failure::{CommandResult, Outcome};
 use crate::options::{Output, Threads};
 use crate::progress::Watch;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
+use miette::Diagnostic;
 use std::path::PathBuf;
 use std::time::Duration;
 use switchback_diagnose::Effect;
@@ -14,12 +15,14 @@ use switchback_host::{FmuError, Map, Simulator, predictions};
 use switchback_io::diagnosis::{
     self, Checked, Expectation, Report, Request, Subject, examine_watched, prior,
 };
+use switchback_io::model;
 use switchback_io::output::note;
 use switchback_io::rig::{self, Loaded};
 use switchback_model::rig::Rig;
 use switchback_report::diagnosis as text;
 use switchback_report::diagnosis::artefacts;
 use switchback_report::pages::INDEX;
+use thiserror::Error;
 
 /// Diagnose the gap between a model and a rig: where it lies, which effect causes it, how far that effect closes it.
 #[derive(Debug, clap::Args)]
@@ -87,6 +90,11 @@ pub(crate) struct Args {
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
 
+    /// Also write series.mcap into that folder: series.csv as a log for Foxglove, Rerun or PlotJuggler, a topic a record (if built with the
+    /// feature `mcap`).
+    #[arg(long, requires = "out", conflicts_with = "power")]
+    mcap: bool,
+
     #[command(flatten)]
     power: PowerArgs,
 
@@ -98,12 +106,13 @@ pub(crate) struct Args {
 }
 
 /// What the folder gets.
-const FILES: [&str; 12] = [
+const FILES: [&str; 13] = [
     "gap.json",
     "nominal.json",
     "augmented.json",
     "aligned.json",
     "series.csv",
+    SERIES_LOG,
     "verdict.txt",
     "where.svg",
     "candidates.svg",
@@ -122,6 +131,9 @@ pub(crate) fn run(args: &Args) -> CommandResult {
     if args.power.power {
         return run_power(args, &data, &loaded);
     }
+    if args.mcap && !model::WRITES_LOGS {
+        return Err(Unwritten.into());
+    }
     let folder = args.output.force.claim_if_asked(args.out.as_deref(), &FILES, &data.inputs(&loaded.plan))?;
     let (rig, mut notes) = (simulated(args, loaded.rig)?, loaded.reported.warnings);
     notes.extend(args.fmu.as_ref().map(|fmu| format!("the predictions are those of {}", fmu.display())));
@@ -136,7 +148,11 @@ pub(crate) fn run(args: &Args) -> CommandResult {
     let report = report.map_err(|error| error.in_file(data.place()))?;
     watch.finish();
     if let Some(folder) = folder {
-        folder.commit(&artefacts(&report)?)?;
+        let mut files = artefacts(&report)?;
+        if args.mcap {
+            files.add(SERIES_LOG, series_log(&report)?);
+        }
+        folder.commit(&files)?;
     }
     let words = || {
         let why = if args.explain { text::why(&report) } else { String::new() };
@@ -145,6 +161,22 @@ pub(crate) fn run(args: &Args) -> CommandResult {
     args.output.quiet.describe_or(args.json, || text::json(&report), words)?;
     Ok(met(args, &report))
 }
+
+/// The series as a log.
+const SERIES_LOG: &str = "series.mcap";
+
+fn series_log(report: &Report) -> Result<Vec<u8>, Unwritten> {
+    let labels = [&report.rig.input_label, &report.rig.output_label].map(String::as_str);
+    model::diagnosed_series(report).log(labels).map_err(|_| Unwritten)
+}
+
+/// A log that this program cannot write.
+#[derive(Debug, Error, Diagnostic)]
+#[error("--mcap: this program was built without the feature `mcap`")]
+#[diagnostic(help(
+    "install it with `cargo install --locked --path crates/cli --features mcap`, or leave the option out: series.csv holds the same"
+))]
+struct Unwritten;
 
 /// The rig with the predictions of the FMU, if one was given.
 fn simulated(args: &Args, rig: Rig) -> Result<Rig, FmuError> {

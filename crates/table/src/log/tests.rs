@@ -173,3 +173,51 @@ fn columns_are_listed_where_they_are_in_doubt() {
         assert!(said.contains(column), "{said}");
     }
 }
+
+#[test]
+fn what_is_written_is_read_back() {
+    use super::{LogField, LogTopic, log_bytes};
+    let field = |name: &str, values: Vec<f64>| LogField {
+        name: name.to_owned(),
+        comment: "x [mm] # float64 y".to_owned(),
+        values,
+    };
+    let topic = |name: &str, from: f64| LogTopic {
+        name: name.to_owned(),
+        instants: (0..ROWS as u64).map(|k| 5_000_000 * k).collect(),
+        fields: vec![
+            field("input", (0..ROWS).map(|k| from + command(k)).collect()),
+            field(
+                "nominal",
+                (0..ROWS)
+                    .map(|k| {
+                        if k == 7 && from == 0.0 {
+                            f64::NAN
+                        } else {
+                            from + command(k) + command(k.saturating_sub(3))
+                        }
+                    })
+                    .collect(),
+            ),
+        ],
+    };
+    let [first, second] = [topic("/a", 0.0), topic("/b", 50.0)];
+    let bytes = log_bytes(&[first.clone(), second]).expect("a log");
+    assert_eq!(
+        bytes,
+        log_bytes(&[first.clone(), topic("/b", 50.0)]).expect("a log"),
+        "the same bytes every time"
+    );
+    let file = File::of("written", &bytes);
+    let table = crate::log::read(&file.0, &|_| None).expect("a log");
+    let column = |name: &str| &table.columns.iter().find(|column| column.name == name).expect(name).values;
+    for field in &first.fields {
+        let same = |(read, written): (&f64, &f64)| {
+            read.to_bits() == written.to_bits() || (read.is_nan() && written.is_nan())
+        };
+        assert!(column(&format!("/a.{}", field.name)).iter().zip(&field.values).all(same), "{}", field.name);
+    }
+    assert!(column("/a time").iter().enumerate().all(|(k, t)| (t - 0.005 * k as f64).abs() < 1e-12));
+    let measured = read(&file, [Some("/b.input"), Some("/b.nominal")]).expect("a good log");
+    assert!((measured.sample_time - 0.005).abs() < 1e-9 && (measured.v[9] - 50.0 - command(9)).abs() < 1e-12);
+}
