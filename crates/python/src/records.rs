@@ -64,7 +64,8 @@ struct Described {
     output: Option<String>,
     time: Option<String>,
     sample_time: Option<f64>,
-    resample: bool,
+    /// `linear` or `hold`.
+    resample: Option<String>,
     /// The share of every record that is held out, at its end.
     share: Option<f64>,
     /// Records that are held out whole.
@@ -96,7 +97,7 @@ impl Records {
                 sample_time: options.value("--sample-time <SECONDS>", positive)?,
                 rate: options.value("--rate <HZ>", positive)?,
                 holdout: options.text("--holdout <SHARE|FILE>")?,
-                resample: options.switch("--resample")?.then_some(Between::Linear),
+                resample: options.name("--resample <HOW>", &Between::ALL, |between| between.name())?,
             };
             options.finish()?;
             let loaded = request.load("gap")?;
@@ -325,7 +326,7 @@ fn plan(described: &Described) -> Result<Plan, RigError> {
         },
         sampling: Sampling {
             sample_time: described.sample_time,
-            resample: described.resample.then_some(Between::Linear),
+            resample: described.resample.as_deref().and_then(Between::named),
         },
         order: order.flatten(),
         interval,

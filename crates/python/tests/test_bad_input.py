@@ -129,6 +129,11 @@ def test_times_that_cannot_be(v: np.ndarray, y: np.ndarray) -> None:
     reported = refused("uneven sampling", sb.Rig.from_frame, taken)
     assert "resample=True" in reported and "--" not in reported
     assert sb.Rig.from_frame(taken, resample=True).sample_time == pytest.approx(0.01, rel=1e-2)
+    straight, held = (sb.Rig.from_frame(taken, resample=how) for how in ("linear", "hold"))
+    same, other = (np.concatenate([record.y for record in rig.records]) for rig in (straight, held))
+    assert np.array_equal(same, np.concatenate([record.y for record in sb.Rig.from_frame(taken, resample=True).records]))
+    assert len(same) != len(other) or not np.array_equal(same, other)
+    refused('give "linear", "hold" or True', sb.Rig.from_frame, taken, resample="cubic")
     assert sb.Rig.from_frame({"t": uneven, "v": v, "y": y}, time="none", sample_time=0.01).sample_time == 0.01
     refused("does not lie after", sb.Rig.from_frame, {"t": t[::-1], "v": v, "y": y})
     reported = refused("the sample time is not known", sb.Rig.from_frame, {"v": v, "y": y})

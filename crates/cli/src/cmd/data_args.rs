@@ -46,7 +46,7 @@ pub(crate) struct DataArgs {
 
 /// Reads `hold` and `linear`.
 pub(crate) fn between() -> impl TypedValueParser<Value = Between> {
-    let names = [Between::Linear, Between::Hold].map(Between::name);
+    let names = Between::ALL.map(Between::name);
     PossibleValuesParser::new(names).map(|name| Between::named(&name).unwrap_or(Between::Linear))
 }
 

@@ -17,7 +17,7 @@ from ._arrays import Floats, finite, floats, series
 from ._native import SwitchbackError
 from ._result import PathLike, Result
 from ._table import Estimate, Row, Table
-from ._options import texts
+from ._options import Resample, between, texts
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -230,7 +230,7 @@ class Model:
         input: Optional[str] = None,
         output: Optional[str] = None,
         time: Optional[str] = None,
-        resample: bool = False,
+        resample: Resample = False,
     ) -> Simulation:
         """Runs the model on an input, with a 95 % band.
 
@@ -253,7 +253,7 @@ class Model:
         if isinstance(v, (str, os.PathLike)):
             if y is not None:
                 raise SwitchbackError("`y` belongs to an input in memory; a file holds its own")
-            options = texts(input=input, output=output, time=time, resample=resample)
+            options = texts(input=input, output=output, time=time, resample=between(resample))
             return Simulation(*_native.simulate_file(model, os.fspath(v), options))
         given = {"input": input, "output": output, "time": time, "resample": resample}
         for name, value in given.items():

@@ -6,9 +6,12 @@ import math
 import operator
 import os
 from collections.abc import Iterable
-from typing import SupportsIndex, Union
+from typing import Literal, SupportsIndex, Union
 
 from ._native import SwitchbackError
+
+#: Whether uneven rows are brought to even ones, and how.
+Resample = Union[bool, Literal["linear", "hold"], None]
 
 #: What an option may be: absent, a switch, a value, or several values of one option.
 Option = Union[None, bool, str, int, float, "os.PathLike[str]", Iterable[str]]
@@ -72,6 +75,17 @@ def whole(value: int | None, name: str) -> int | None:
         return operator.index(value)
     except TypeError:
         raise SwitchbackError(f"{name}={value!r}: give a whole number") from None
+
+
+def between(value: Resample) -> str | None:
+    """``linear``, which ``True`` stands for, or ``hold``, if anything."""
+    if value is None or value is False:
+        return None
+    if value is True:
+        return "linear"
+    if value not in ("linear", "hold"):
+        raise SwitchbackError(f'resample={value!r}: give "linear", "hold" or True, which is linear')
+    return value
 
 
 def several(value: str | Iterable[str] | None) -> list[str]:

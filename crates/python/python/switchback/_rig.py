@@ -16,7 +16,7 @@ from numpy.typing import ArrayLike
 from ._arrays import Column, Floats, column, columns_of, finite, floats
 from ._native import Records, SwitchbackError
 from ._result import PathLike
-from ._options import number, pair, real, whole, texts
+from ._options import Resample, between, number, pair, real, whole, texts
 
 #: What drove the input of a record.
 Role = Literal["free", "descendant", "ascendant", "step_high", "step_low"]
@@ -68,7 +68,7 @@ class Rig:
         sample_time: Optional[float] = None,
         rate: Optional[float] = None,
         holdout: Union[float, PathLike, None] = None,
-        resample: bool = False,
+        resample: Resample = False,
     ) -> Rig:
         """Reads files of measurements, one a record, or one rig file.
 
@@ -85,7 +85,8 @@ class Rig:
             What models are judged on: a share of every record, at its end, or a file; else the last third of a single file, or the
             last of several.
         resample
-            Interpolate uneven rows linearly to even ones.
+            Bring uneven rows to even ones, and slow signals to the rows of others: ``"linear"`` (or ``True``) on straight lines, ``"hold"`` with the
+            last value. Else a slow signal gets whichever predicts the output better, and uneven rows are refused.
 
         Raises
         ------
@@ -99,7 +100,7 @@ class Rig:
             sample_time=sample_time,
             rate=rate,
             holdout=holdout,
-            resample=resample,
+            resample=between(resample),
         )
         return cls(Records.read([os.fspath(file) for file in files], options))
 
@@ -115,7 +116,7 @@ class Rig:
         y_sim: Optional[str] = None,
         sample_time: Optional[float] = None,
         holdout: Union[float, str, Sequence[str], None] = None,
-        resample: bool = False,
+        resample: Resample = False,
         order: Optional[int] = None,
         interval: Optional[tuple[float, float]] = None,
         roles: Optional[Mapping[str, Role]] = None,
@@ -143,7 +144,8 @@ class Rig:
             What models are judged on: a share of every record, at its end, or the names of records; else the last third of a single
             record, or the last of several, or nothing where ``roles`` report designed experiments.
         resample
-            Interpolate uneven rows linearly to even ones.
+            Bring uneven rows to even ones, and slow signals to the rows of others: ``"linear"`` (or ``True``) on straight lines, ``"hold"`` with the
+            last value. Else a slow signal gets whichever predicts the output better, and uneven rows are refused.
         order
             Order of the linear part, where it is known.
         interval
@@ -178,7 +180,7 @@ class Rig:
             "output": _named(output),
             "time": _named(time),
             "sample_time": real(sample_time, "sample_time"),
-            "resample": bool(resample),
+            "resample": between(resample),
             "share": share,
             "held_out": held_out,
             "records": [[piece, roles.get(piece, "free")] for piece in names],

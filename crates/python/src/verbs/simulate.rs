@@ -69,7 +69,7 @@ pub(crate) fn simulate_file<'py>(
                 input: options.text("--input <COLUMN>")?,
                 output: options.text("--output <COLUMN>")?,
             },
-            resample: options.switch("--resample")?.then_some(Between::Linear),
+            resample: options.name("--resample <HOW>", &Between::ALL, |between| between.name())?,
         };
         options.finish()?;
         let file = model::of_text(&path, &text)?;

@@ -47,9 +47,12 @@ pub enum Between {
 }
 
 impl Between {
+    /// Both.
+    pub const ALL: [Self; 2] = [Self::Linear, Self::Hold];
+
     /// By its name on the command line and in rig files.
     pub fn named(name: &str) -> Option<Self> {
-        [Self::Hold, Self::Linear].into_iter().find(|between| between.name() == name)
+        Self::ALL.into_iter().find(|between| between.name() == name)
     }
 
     /// `hold` or `linear`.
