@@ -48,6 +48,18 @@ fn days_of_spreadsheets_are_days() {
 }
 
 #[test]
+fn the_name_of_a_clock_may_be_its_unit() {
+    for (name, seconds) in
+        [("ms", 1e-3), ("millis", 1e-3), ("TimeUS", 1e-6), ("t_micros", 1e-6), ("elapsed seconds", 1.0)]
+    {
+        let text = table(&format!("{name},travel,force"), |k, _, v, y| {
+            format!("{:.6},{v},{y}", 0.01 * k as f64 / seconds)
+        });
+        is_the_record(text, &[], "0.01 s (100 Hz)");
+    }
+}
+
+#[test]
 fn a_rate_that_no_machine_has_is_doubted() {
     let text = table("time,travel,force", |k, _, v, y| format!("{:e},{v},{y}", 1e-8 * k as f64));
     let reported = load(text, &[]).reported.to_string();

@@ -18,6 +18,8 @@ fn commands_and_responses_are_known_by_their_names() {
         ("time,joint[2].effort,joint[2].reference", 2),
         ("time,ctrl/travel,ctrl/force", 1),
         ("time,rpm,voltage", 2),
+        ("time,Istposition,Sollposition", 2),
+        ("time,Measured Value,Controller Output", 2),
     ] {
         let loaded = load(
             table(
@@ -28,6 +30,26 @@ fn commands_and_responses_are_known_by_their_names() {
         );
         assert_eq!(signals(&loaded)[0], truth().0, "{header}: {}", loaded.reported);
         assert!(!loaded.reported.to_string().contains("no name says"), "{header}: {}", loaded.reported);
+    }
+}
+
+#[test]
+fn of_three_signals_the_two_that_belong_together_are_taken() {
+    for (header, labels) in [
+        ("time,throttle_cmd,throttle_pos,rpm", ["throttle_cmd", "throttle_pos"]),
+        ("time,ctrl_0,qpos_0,qvel_0", ["ctrl_0", "qpos_0"]),
+        ("time,Sollposition,Istposition,Schleppfehler", ["Sollposition", "Istposition"]),
+        ("time,Reference,Measured Value,Controller Output", ["Reference", "Measured Value"]),
+        ("time,Crosshead [mm],Load Cell [N],Strain 1 [%]", ["Crosshead [mm]", "Load Cell [N]"]),
+        ("time,cmd,pos,vel", ["cmd", "pos"]),
+    ] {
+        let loaded = load(table(header, |k, t, v, y| format!("{t},{v},{y},{}", (k % 17) as f64 - 8.0)), &[]);
+        assert_eq!(
+            [&loaded.rig.input_label, &loaded.rig.output_label],
+            labels,
+            "{header}: {}",
+            loaded.reported
+        );
     }
 }
 

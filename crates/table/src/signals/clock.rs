@@ -1,5 +1,6 @@
 //! What the numbers of a time column mean.
 
+use super::guess;
 use super::input_form::InputForm;
 use super::sampling::rounded;
 use crate::table::{Column, DataProblem, Kind, unit};
@@ -49,6 +50,7 @@ impl Clock {
             is_assumed: false,
             is_days: false,
         };
+        let by_name = guess::simplified(&column.name).rsplit(' ').next().and_then(unit_named);
         let is_day =
             DAYS.iter().any(|(low, high)| (*low..*high).contains(&first)) && median_step(raw) < SHORT;
         match &column.unit {
@@ -60,6 +62,7 @@ impl Clock {
                     input_form.without_time()
                 ),
             }),
+            None if by_name.is_some() => Ok(clock(by_name.unwrap_or(1.0))),
             None => Ok(match EPOCHS.into_iter().find(|(least, ..)| size >= *least) {
                 Some((_, unit, name)) => Self { origin: first, epoch: Some(name), ..clock(unit) },
                 None if is_day => Self { origin: first, is_days: true, ..clock(86_400.0) },
@@ -106,6 +109,16 @@ impl Clock {
                 input_form.without_time()
             )
         })
+    }
+}
+
+/// Seconds in a unit that is the last word of a column's name: `millis`, `TimeUS`. Single letters are no such word.
+fn unit_named(word: &str) -> Option<f64> {
+    match word {
+        "millis" => Some(1e-3),
+        "micros" => Some(1e-6),
+        "nanos" | "nanosec" | "nsec" => Some(1e-9),
+        word => unit::seconds(word).filter(|_| word.len() > 1),
     }
 }
 

@@ -127,6 +127,11 @@ pub(super) fn without(column: &Column, part: Part) -> Option<Vec<String>> {
     (!found.is_empty()).then(|| others.into_iter().map(str::to_owned).collect())
 }
 
+/// Whether a column is what a controller gives out.
+pub(super) fn is_of_controller(column: &Column) -> bool {
+    named(column).iter().any(|word| words::CONTROLLER.contains(&word.as_str()))
+}
+
 /// The words of a name.
 pub(super) fn named(column: &Column) -> Vec<String> {
     simplified(&column.name).split(' ').map(str::to_owned).collect()
@@ -156,5 +161,17 @@ pub(super) fn simplified(name: &str) -> String {
         before = letter;
         simple.extend(if letter.is_alphanumeric() { letter } else { ' ' }.to_lowercase());
     }
-    simple.split_whitespace().collect::<Vec<_>>().join(" ")
+    simple.split_whitespace().map(apart).collect::<Vec<_>>().join(" ")
+}
+
+/// `sollposition` as two words, where the second is one for a signal.
+fn apart(word: &str) -> String {
+    let is_signal = |rest: &str| {
+        [words::MOTION, words::DRIVE, words::ANSWER, words::OUTPUT].iter().any(|all| all.contains(&rest))
+    };
+    let part = words::PREFIXES.iter().find_map(|prefix| {
+        let rest = word.strip_prefix(prefix)?;
+        is_signal(rest).then(|| format!("{prefix} {rest}"))
+    });
+    part.unwrap_or_else(|| word.to_owned())
 }

@@ -228,7 +228,7 @@ impl Offer<'_> {
         }
         // One is known and one is left.
         if let (Some(_), None) = (input, output) {
-            output = only(rest(input));
+            output = only(rest(input)).or_else(|| input.and_then(|input| self.answer_of(input)));
         }
         if let (None, Some(_)) = (input, output) {
             let motion = || self.called(&[Part::Motion], output);
@@ -285,6 +285,17 @@ impl Offer<'_> {
         }
     }
 
+    /// What moves by a command, called as it is but for such a word: `throttle_cmd` and `throttle_pos`. A position comes before a speed.
+    fn answer_of(&self, command: usize) -> Option<usize> {
+        let column = |k: usize| &self.table.columns[k];
+        let base = guess::without(column(command), Part::Command)?;
+        let moved = |part: Part| {
+            let is = |k: &usize| *k != command && guess::without(column(*k), part).as_ref() == Some(&base);
+            only(self.signals.iter().copied().filter(is))
+        };
+        moved(Part::Motion).or_else(|| moved(Part::Answer))
+    }
+
     /// The signals, or the one that the user named.
     fn signals_and(&self, given: Option<usize>) -> Vec<usize> {
         given.map_or_else(|| self.signals.to_vec(), |given| vec![given])
@@ -337,7 +348,8 @@ impl Offer<'_> {
             let says_nothing = || self.is_shared(k, part);
             let is_command = is_out
                 && guess::surety(column(k), Part::Command).is_some()
-                && !self.is_shared(k, Part::Command);
+                && !self.is_shared(k, Part::Command)
+                || is_out && guess::is_of_controller(column(k));
             let surety = guess::surety(column(k), part).filter(|_| !is_command && !says_nothing())?;
             Some((surety, !is_raw(k), std::cmp::Reverse(k)))
         };

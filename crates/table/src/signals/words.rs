@@ -24,6 +24,11 @@ pub(super) const TIME: &[&str] = &[
     "millis",
     "micros",
     "timecode",
+    "ms",
+    "us",
+    "msec",
+    "usec",
+    "nanos",
     "second",
 ];
 /// The input of a machine, whatever is measured on it.
@@ -131,13 +136,20 @@ pub(super) const MOTION: &[&str] = &[
     "hub",
     "auslenkung",
     "winkel",
+    "crosshead",
+    "traverse",
+    "extension",
+    "indentation",
+    "rotation",
+    "qpos",
+    "lage",
 ];
 /// What drives a machine that answers with motion.
 pub(super) const DRIVE: &[&str] =
     &["voltage", "volt", "spannung", "current", "strom", "pressure", "druck", "valve", "throttle"];
 /// Motion as an answer to a drive.
 pub(super) const ANSWER: &[&str] =
-    &["velocity", "vel", "speed", "rpm", "drehzahl", "geschwindigkeit", "acceleration", "acc"];
+    &["velocity", "vel", "qvel", "speed", "rpm", "drehzahl", "geschwindigkeit", "acceleration", "acc"];
 /// Forces, and the plain words for an output.
 pub(super) const OUTPUT: &[&str] = &[
     "y",
@@ -154,6 +166,10 @@ pub(super) const OUTPUT: &[&str] = &[
     "drehmoment",
     "spannkraft",
 ];
+/// What commands a machine: its output is no response.
+pub(super) const CONTROLLER: &[&str] = &["controller", "pid", "regler", "plc", "sps"];
+/// Before the name of a signal, in one word with it: `Sollposition`.
+pub(super) const PREFIXES: &[&str] = &["soll", "ist"];
 /// Columns that count the samples.
 pub(super) const INDEX: &[&str] =
     &["", "index", "idx", "i", "k", "n", "no", "nr", "sample", "samples", "row", "count", "id", "point", "x"];
