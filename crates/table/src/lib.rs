@@ -5,6 +5,7 @@ pub mod door;
 mod file_error;
 mod log;
 mod mat;
+mod parquet_file;
 pub mod shell;
 pub mod signals;
 pub mod stream;

@@ -108,14 +108,16 @@ pub fn read(path: &Path, most: u64) -> Result<Vec<u8>, FileError> {
 
 /// Whether a name says that a stream is no text.
 fn may_hold_zeros(path: &Path) -> bool {
-    let is = |ending: &OsStr| ["mat", "mcap", "gz"].iter().any(|known| ending.eq_ignore_ascii_case(known));
+    let is = |ending: &OsStr| {
+        ["mat", "mcap", "parquet", "gz"].iter().any(|known| ending.eq_ignore_ascii_case(known))
+    };
     path.extension().is_some_and(is)
 }
 
-/// Whether the first bytes say so: UTF-16, MATLAB, HDF5, MCAP, gzip.
+/// Whether the first bytes say so: Parquet, UTF-16, MATLAB, HDF5, MCAP, gzip.
 fn is_binary(bytes: &[u8]) -> bool {
-    const BEGINNINGS: [&[u8]; 6] =
-        [b"\xff\xfe", b"\xfe\xff", b"MATLAB ", b"\x89HDF", b"\x89MCAP", b"\x1f\x8b"];
+    const BEGINNINGS: [&[u8]; 7] =
+        [b"PAR1", b"\xff\xfe", b"\xfe\xff", b"MATLAB ", b"\x89HDF", b"\x89MCAP", b"\x1f\x8b"];
     BEGINNINGS.iter().any(|beginning| bytes.starts_with(beginning))
 }
 

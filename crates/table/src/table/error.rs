@@ -37,6 +37,8 @@ pub enum DataProblem {
     NotMatlab { reason: String },
     #[error("the file cannot be read as a log in MCAP: {reason}")]
     NotLog { reason: String },
+    #[error("the file cannot be read as a table in Parquet: {reason}")]
+    NotParquet { reason: String },
     #[error("the header has {found} cells, the rows {expected}")]
     HeaderWidth { found: usize, expected: usize },
     #[error(
@@ -139,6 +141,7 @@ impl DataProblem {
             }
             Self::NotMatlab { .. } => "save numeric vectors of one length, or a CSV file by `writetable`; MATLAB files are read by programs built with `--features matlab`".to_owned(),
             Self::NotLog { .. } => "give a log of ROS 2 (`ros2 bag record -s mcap`), or a CSV file; logs are read by programs built with `--features mcap`".to_owned(),
+            Self::NotParquet { .. } => "copy the file again, or write a CSV file from it (`frame.to_csv`); Parquet is read by programs built with `--features parquet`".to_owned(),
             Self::HeaderWidth { .. } => "give every column its name in the header, and none to spare".to_owned(),
             Self::Ragged { .. } => {
                 "give every row one cell a column; a decimal comma would split a number in two where commas separate columns".to_owned()

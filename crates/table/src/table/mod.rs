@@ -32,7 +32,7 @@ pub use table_error::TableError;
 
 use crate::door::{LARGEST, read_within};
 use crate::text_pieces::{PieceError, TextPieces};
-use crate::{log, mat};
+use crate::{log, mat, parquet_file};
 use body::Rows;
 use dialect::Dialect;
 use head::Head;
@@ -84,6 +84,9 @@ impl Table {
         if mat::is_matlab(path, pieces.first_bytes()) {
             return mat::read(path, read_within(path, LARGEST).map_err(TableError::File)?);
         }
+        if parquet_file::is_parquet(path, pieces.first_bytes()) {
+            return parquet_file::read(path);
+        }
         match Self::of_pieces(path, pieces, least) {
             Err(Unread::NotUtf8) => {
                 let again = TextPieces::open(path).map_err(TableError::File)?.in_windows_1252();
@@ -118,7 +121,8 @@ impl Table {
         take: &mut dyn FnMut(Self) -> bool,
     ) -> Result<bool, TableError> {
         let pieces = TextPieces::open(path).map_err(TableError::File)?;
-        if mat::is_matlab(path, pieces.first_bytes()) || log::is_log(path, pieces.first_bytes()) {
+        let is = |kind: fn(&Path, &[u8]) -> bool| kind(path, pieces.first_bytes());
+        if is(mat::is_matlab) || is(log::is_log) || is(parquet_file::is_parquet) {
             return Ok(false);
         }
         match Self::in_batches(path, pieces, (least, most), take) {
