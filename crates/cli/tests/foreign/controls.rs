@@ -190,3 +190,41 @@ fn coloured_noise_is_no_exception() {
         assert!(gain(cell) > 0.98, "{}: {}", cell.series, gain(cell));
     }
 }
+
+/// Off by two standard errors, which it does not know.
+#[derive(Debug)]
+struct Off;
+
+impl ForeignEstimator for Off {
+    fn begin(&self) -> Result<String, ForeignError> {
+        Ok(String::new())
+    }
+
+    fn estimate(&self, design: &Design, records: &[Records<'_>]) -> Vec<Result<Estimates, String>> {
+        let all = OwnMethod::new(Method::Joint).expect("a method").estimate(design, records);
+        let off = |(value, se): (f64, f64)| (value + 2.0 * se, se);
+        all.into_iter().map(|found| Ok(found?.into_iter().map(off).collect())).collect()
+    }
+}
+
+#[test]
+fn around_the_mean_estimate_intervals_are_as_wide_as_estimates_scatter_whatever_the_bias() {
+    let text = SCENARIO.replace("[1000, 10000]", "[1000]").replace("replicates = 300", "replicates = 1000");
+    let right = (function("right", true), own(Method::Joint));
+    let results = study(&text, vec![right, (function("off", true), Arc::new(Off))]);
+    for (right, off) in
+        cells(&results, "right")[0].parameters.iter().zip(&cells(&results, "off")[0].parameters)
+    {
+        let (plain, around) =
+            (right.coverage.expect("coverage"), right.coverage_bias_eliminated.expect("coverage"));
+        // There is next to no bias: both count the same intervals, but for a few.
+        assert!((plain.value() - around.value()).abs() < 0.006, "{}: {plain:?} {around:?}", right.name);
+        let (plain, of_off) =
+            (off.coverage.expect("coverage"), off.coverage_bias_eliminated.expect("coverage"));
+        assert!(plain.value() < 0.6, "{}: {plain:?}", off.name);
+        assert!((of_off.value() - around.value()).abs() < 0.006, "{}: {of_off:?} {around:?}", off.name);
+        assert!((around.mcse() - 0.0069).abs() < 0.001, "{around:?}");
+    }
+    // Methods of ours go eight at a time, and keep no ends.
+    assert!(cells(&results, "joint")[0].parameters.iter().all(|p| p.coverage_bias_eliminated.is_none()));
+}

@@ -179,7 +179,10 @@ fn a_request_says_how_the_record_was_made_and_nothing_of_the_system() {
     // Standard errors were not reported: there is no coverage.
     let theirs = &results.cells[2];
     assert!(theirs.intervals.is_empty());
-    let has_none = |p: &Parameter| p.coverage.is_none() && p.model_sd.is_none() && p.interval_score.is_none();
+    let has_none = |p: &Parameter| {
+        let scores = (p.interval_score, p.coverage_bias_eliminated);
+        p.coverage.is_none() && p.model_sd.is_none() && scores == (None, None)
+    };
     assert!(
         theirs
             .parameters

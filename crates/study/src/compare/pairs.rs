@@ -161,7 +161,7 @@ fn changed(cell: &Cell, (baseline, new): (&Parameter, &Parameter), rounding: f64
 
 type Getter = fn(&Parameter) -> Option<Measured>;
 
-const MEASURES: [(&str, Getter); 8] = [
+const MEASURES: [(&str, Getter); 10] = [
     ("bias", |p| p.bias),
     ("bias_controlled", |p| p.bias_controlled),
     ("sd", |p| p.sd),
@@ -169,6 +169,8 @@ const MEASURES: [(&str, Getter); 8] = [
     ("mse", |p| p.mse),
     ("coverage", |p| p.coverage),
     ("coverage_controlled", |p| p.coverage_controlled),
+    ("interval_score", |p| p.interval_score),
+    ("coverage_bias_eliminated", |p| p.coverage_bias_eliminated),
     ("model_sd", |p| p.model_sd),
 ];
 

@@ -21,6 +21,7 @@ mod execute;
 mod expectations;
 mod foreign_noise_group;
 mod free;
+mod interval_ends;
 mod intervals;
 mod judge;
 mod lane_batch;

@@ -254,7 +254,7 @@ fn excess(stopping: &Stopping, total: &CellSums) -> f64 {
         performances.iter().map(ratio).filter(|x| x.is_finite()).fold(0.0, f64::max)
     };
     let sd = stopping.sd_relative_mcse.map_or(0.0, |allowed| worst(&|p| p.sd.mcse / p.sd.value / allowed));
-    let adjusted = total.controls().and_then(|controls| controls.adjusted(None, None));
+    let adjusted = total.foreign().and_then(|sums| sums.controls.adjusted(None, None));
     if let (Some(allowed), Some(adjusted)) = (stopping.bias_mcse, &adjusted) {
         let ratios = adjusted.iter().zip(&performances).map(|(a, p)| a.bias.mcse / p.sd.value / allowed);
         return sd.max(ratios.filter(|x| x.is_finite()).fold(0.0, f64::max));

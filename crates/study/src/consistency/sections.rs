@@ -1,6 +1,7 @@
 //! What the replicates of a cell left behind: sums, by section.
 
 use super::control_sums::{ControlShape, ControlSums, PairOfErrors};
+use super::interval_ends::IntervalEnds;
 use serde::{Deserialize, Serialize};
 use switchback_identify::pulse::ErrorTerms;
 use switchback_identify::pulse::lanes::LANES;
@@ -105,8 +106,41 @@ pub(super) struct CellSums {
     /// One a parameter, of all sections: counts add up exactly, in any order.
     intervals: Vec<IntervalCounts>,
     /// Of a method of others.
-    controls: Option<ControlSums>,
+    foreign: Option<ForeignSums>,
     pub(super) runs: Runs,
+}
+
+/// What is kept of a method of others besides.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct ForeignSums {
+    pub(super) controls: ControlSums,
+    /// One a parameter.
+    pub(super) ends: Vec<IntervalEnds>,
+}
+
+impl ForeignSums {
+    fn new(shape: ControlShape) -> Self {
+        let ends = vec![IntervalEnds::default(); shape.parameters];
+        Self { controls: ControlSums::new(shape, SECTIONS), ends }
+    }
+
+    fn merge(&mut self, other: &Self) {
+        self.controls.merge(&other.controls);
+        self.ends.iter_mut().zip(&other.ends).for_each(|(into, from)| into.merge(from));
+    }
+
+    /// Appends all that is in it.
+    pub(super) fn write(&self, bytes: &mut Vec<u8>) {
+        self.controls.write(bytes);
+        self.ends.iter().for_each(|ends| ends.write(bytes));
+    }
+
+    /// Takes what [`write`](Self::write) appended from the beginning of `bytes`; `None` where there is too little.
+    pub(super) fn read(shape: ControlShape, bytes: &mut &[u8]) -> Option<Self> {
+        let controls = ControlSums::read((shape, SECTIONS), bytes)?;
+        let ends = (0..shape.parameters).map(|_| IntervalEnds::read(bytes)).collect::<Option<_>>()?;
+        Some(Self { controls, ends })
+    }
 }
 
 /// What the sums of a cell hold.
@@ -123,31 +157,32 @@ impl CellSums {
         Self {
             halves: [0, 1].map(|_| LaneSums::new(parameters)),
             intervals: vec![IntervalCounts::default(); parameters],
-            controls: controls.map(|shape| ControlSums::new(shape, SECTIONS)),
+            foreign: controls.map(ForeignSums::new),
             runs: Runs::default(),
         }
     }
 
-    /// Puts together what [`halves`](Self::halves), [`intervals`](Self::intervals), [`controls`](Self::controls) and `runs` hold.
+    /// Puts together what [`halves`](Self::halves), [`intervals`](Self::intervals), [`foreign`](Self::foreign) and `runs` hold.
     pub(super) fn of(
         halves: [LaneSums; 2],
         intervals: Vec<IntervalCounts>,
-        controls: Option<ControlSums>,
+        foreign: Option<ForeignSums>,
         runs: Runs,
     ) -> Self {
-        Self { halves, intervals, controls, runs }
+        Self { halves, intervals, foreign, runs }
     }
 
-    /// Sums for control variates, of a method of others.
-    pub(super) fn controls(&self) -> Option<&ControlSums> {
-        self.controls.as_ref()
+    /// What is kept of a method of others besides.
+    pub(super) fn foreign(&self) -> Option<&ForeignSums> {
+        self.foreign.as_ref()
     }
 
     /// Adds the controls and errors of a replicate to a section.
     pub(super) fn push_controls(&mut self, section: usize, controls: &[f64], errors: PairOfErrors<'_>) {
-        if let Some(sums) = &mut self.controls {
-            sums.push(section, controls, errors);
-        }
+        let Some(sums) = &mut self.foreign else { return };
+        sums.controls.push(section, controls, errors);
+        let own = errors.own.into_iter().flatten().zip(errors.se.into_iter().flatten());
+        sums.ends.iter_mut().zip(own).for_each(|(ends, (error, se))| ends.push(*error, *se));
     }
 
     pub(super) fn halves(&self) -> &[LaneSums; 2] {
@@ -195,7 +230,7 @@ impl CellSums {
     pub(super) fn merge(&mut self, other: &Self) {
         self.halves.iter_mut().zip(&other.halves).for_each(|(into, from)| into.merge(from));
         self.count(&other.intervals);
-        if let Some((into, from)) = self.controls.as_mut().zip(other.controls.as_ref()) {
+        if let Some((into, from)) = self.foreign.as_mut().zip(other.foreign.as_ref()) {
             into.merge(from);
         }
         self.runs.merge(&other.runs);

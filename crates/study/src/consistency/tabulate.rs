@@ -22,14 +22,17 @@ pub(super) fn cells(
             let performances = performances(&theories[index], &totals[index], None);
             let intervals = intervals(spec, &totals[index], &performances);
             let estimates = runs.replicates - runs.failed;
-            let scores = totals[index]
-                .controls()
-                .filter(|_| estimates > 1)
-                .map(|sums| sums.interval_scores(estimates));
-            let score =
-                |k: usize| scores.as_ref().and_then(|scores| Measured::new(scores[k].value, scores[k].mcse));
+            let foreign = totals[index].foreign().filter(|_| estimates > 1);
+            let scores = foreign.map(|sums| sums.controls.interval_scores(estimates));
+            let score = |k: usize| scores.as_ref().and_then(|scores| measured(scores[k]));
+            // Around the mean estimate, where every estimate has an interval.
+            let around_mean = |k: usize, performance: Option<Performance>| {
+                let known = performance.filter(|p| p.model_sd.value.is_finite())?;
+                measured(foreign?.ends[k].coverage(known.bias.value)?)
+            };
             let parameters = performances.into_iter().enumerate().map(|(k, performance)| Parameter {
                 interval_score: score(k),
+                coverage_bias_eliminated: around_mean(k, performance),
                 ..parameter((spec, &theories[index]), k, performance)
             });
             Cell {
@@ -73,6 +76,10 @@ fn failures(runs: &Runs) -> Failures {
     }
 }
 
+fn measured(m: statistics::Measured) -> Option<Measured> {
+    Measured::new(m.value, m.mcse)
+}
+
 fn parameter(
     (spec, theory): (&CellSpec, &CellTheory),
     k: usize,
@@ -81,7 +88,6 @@ fn parameter(
     let at = |values: &Option<Vec<f64>>| values.as_ref().map(|v| v[k]);
     let theory_sd = at(&theory.sd);
     let name = &spec.parameters[k];
-    let measured = |m: statistics::Measured| Measured::new(m.value, m.mcse);
     Parameter {
         name: name.name.clone(),
         group: name.group,
@@ -96,6 +102,7 @@ fn parameter(
         coverage: performance.and_then(|p| measured(p.coverage)),
         coverage_controlled: performance.and_then(|p| p.coverage_controlled).and_then(measured),
         interval_score: None,
+        coverage_bias_eliminated: None,
         model_sd: performance.and_then(|p| measured(p.model_sd)),
         model_sd_relative_error: performance.and_then(|p| measured(p.model_sd_relative_error)),
         theory_bias: at(&theory.bias),

@@ -38,10 +38,10 @@ pub(super) fn performances(theory: &CellTheory, total: &CellSums, view: View) ->
     let sums = total.parameters(view);
     let of = |(k, sums): (usize, &ErrorSums)| sums.performance(theory.known(k));
     let mut found: Vec<Option<Performance>> = sums.iter().enumerate().map(of).collect();
-    let Some((controls, (plan, noise))) = total.controls().zip(theory.controls.as_ref()) else {
+    let Some((foreign, (plan, noise))) = total.foreign().zip(theory.controls.as_ref()) else {
         return found;
     };
-    let covariance = plan.covariance(noise);
+    let (controls, covariance) = (&foreign.controls, plan.covariance(noise));
     let adjusted = controls.adjusted(view, Some(&covariance)).unwrap_or_default();
     // Of all replicates but a section nobody asks for an error.
     let errors = view.is_none().then(|| controls.errors_of_sd(&covariance)).flatten();

@@ -97,6 +97,11 @@ pub struct Parameter {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(with = "Measured")]
     pub interval_score: Option<Measured>,
+    /// Share of the 95 % intervals that hold the mean estimate instead of the truth: whether they are as wide as the estimates scatter, whatever the
+    /// bias. Of methods of others that report standard errors.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(with = "Measured")]
+    pub coverage_bias_eliminated: Option<Measured>,
     /// Root mean square of the standard errors the method reports.
     pub model_sd: Option<Measured>,
     /// `model_sd / sd − 1`.

@@ -67,6 +67,7 @@ fn condense(p: &mut Parameter) {
         &mut p.sd_controlled,
         &mut p.coverage,
         &mut p.interval_score,
+        &mut p.coverage_bias_eliminated,
         &mut p.model_sd,
     ];
     figures.into_iter().flatten().for_each(|figure: &mut Measured| *figure = figure.shortened(DIGITS));

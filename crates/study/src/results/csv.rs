@@ -49,7 +49,7 @@ pub fn to_csv(results: &Results) -> String {
     let mut writer = csv::Writer::from_writer(Vec::new());
     // Only studies with methods of others have these.
     let has_ids = results.cells.iter().any(|cell| cell.strong_id.is_some());
-    let more = |fields: Vec<String>, own: [String; 3]| {
+    let more = |fields: Vec<String>, own: [String; 5]| {
         fields.into_iter().chain(own.into_iter().filter(move |_| has_ids))
     };
     writer.write_record(more(header(), FOREIGN.map(str::to_owned))).expect("writing to memory");
@@ -63,12 +63,21 @@ pub fn to_csv(results: &Results) -> String {
 }
 
 /// Columns of studies with methods of others.
-const FOREIGN: [&str; 3] = ["strong_id", "interval_score", "interval_score_mcse"];
+const FOREIGN: [&str; 5] = [
+    "strong_id",
+    "interval_score",
+    "interval_score_mcse",
+    "coverage_bias_eliminated",
+    "coverage_bias_eliminated_mcse",
+];
 
-fn foreign(cell: &Cell, parameter: &Parameter) -> [String; 3] {
-    let number =
-        |of: fn(&Measured) -> f64| parameter.interval_score.map_or_else(String::new, |m| of(&m).to_string());
-    [cell.strong_id.clone().unwrap_or_default(), number(Measured::value), number(Measured::mcse)]
+fn foreign(cell: &Cell, parameter: &Parameter) -> [String; 5] {
+    let number = |x: Option<f64>| x.map_or_else(String::new, |x| x.to_string());
+    let figures = [parameter.interval_score, parameter.coverage_bias_eliminated];
+    let [score, coverage] =
+        figures.map(|m| [m.as_ref().map(Measured::value), m.as_ref().map(Measured::mcse)].map(number));
+    let ([score, of_score], [coverage, of_coverage]) = (score, coverage);
+    [cell.strong_id.clone().unwrap_or_default(), score, of_score, coverage, of_coverage]
 }
 
 fn header() -> Vec<String> {

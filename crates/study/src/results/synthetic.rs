@@ -171,6 +171,7 @@ fn parameter(
         mse: Measured::new(sd * sd + bias * bias, sd * sd * (2.0 / REPLICATES).sqrt()),
         coverage: Measured::new(coverage, (coverage * (1.0 - coverage) / REPLICATES).sqrt()),
         interval_score: None,
+        coverage_bias_eliminated: None,
         coverage_controlled: controlled.then(|| Measured::new(0.95, 0.001)).flatten(),
         model_sd: Measured::new(theory, theory / 300.0),
         model_sd_relative_error: Measured::new(theory / sd - 1.0, 1.0 / (2.0 * REPLICATES).sqrt()),

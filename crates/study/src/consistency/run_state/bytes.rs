@@ -3,8 +3,7 @@
 
 use super::{Round, RunState, Snapshot};
 use crate::Shard;
-use crate::consistency::control_sums::ControlSums;
-use crate::consistency::sections::{CellShape, CellSums, Runs, SECTIONS};
+use crate::consistency::sections::{CellShape, CellSums, ForeignSums, Runs};
 use crate::consistency::tally::{Node, Tally};
 use serde::{Deserialize, Serialize};
 use sha2::{Digest, Sha256};
@@ -83,7 +82,7 @@ impl Snapshot<'_> {
             cell.halves().iter().for_each(|half| half.write(&mut bytes));
             let counts = cell.intervals().iter().flat_map(|counts| counts.below.iter().chain(&counts.above));
             bytes.extend(counts.flat_map(|count| count.to_le_bytes()));
-            cell.controls().into_iter().for_each(|controls| controls.write(&mut bytes));
+            cell.foreign().into_iter().for_each(|foreign| foreign.write(&mut bytes));
         }
         let hash = Sha256::digest(&bytes);
         bytes.extend_from_slice(&hash);
@@ -150,11 +149,11 @@ impl RunState {
                 let mut half = || LaneSums::read(parameters, &mut sums);
                 let halves = [half()?, half()?];
                 let intervals = (0..parameters).map(|_| counts(&mut sums)).collect::<Option<_>>()?;
-                let controls = match controls {
+                let foreign = match controls {
                     None => None,
-                    Some(shape) => Some(ControlSums::read((shape, SECTIONS), &mut sums)?),
+                    Some(shape) => Some(ForeignSums::read(shape, &mut sums)?),
                 };
-                Some(CellSums::of(halves, intervals, controls, runs))
+                Some(CellSums::of(halves, intervals, foreign, runs))
             };
             let cells: Option<Vec<CellSums>> = runs.into_iter().zip(tally.shape()).map(cell).collect();
             filled.add(Node { range: replicates, cells: cells.ok_or(Unusable::Damaged)? });
