@@ -34,6 +34,7 @@ pub(crate) struct Cli {
 
 #[derive(Debug, Subcommand)]
 enum Verb {
+    Bench(cmd::bench::Args),
     Calibrate(cmd::calibrate::Args),
     Compare(cmd::compare::Args),
     Completions(cmd::completions::Args),
@@ -128,6 +129,7 @@ impl Cli {
     /// The report of an input that could not be used.
     pub(crate) fn run(self) -> CommandResult {
         match self.verb {
+            Some(Verb::Bench(args)) => cmd::bench::run(&args),
             Some(Verb::Calibrate(args)) => cmd::calibrate::run(&args),
             Some(Verb::Compare(args)) => cmd::compare::run(&args),
             Some(Verb::Completions(args)) => cmd::completions::run(&args, Self::command()),

@@ -4,7 +4,7 @@ use crate::failure::{CommandResult, Outcome};
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use miette::IntoDiagnostic;
 use switchback_identify::Method;
-use switchback_study::foreign::{OwnMethod, answer_requests};
+use switchback_versions::{OwnMethod, answer_requests};
 
 /// Answer a study's requests by one of our methods, as the command of a `[[method]]` does.
 #[derive(Debug, clap::Args)]

@@ -4,9 +4,10 @@ use std::sync::Arc;
 use switchback_identify::Method;
 use switchback_study::ForeignName;
 use switchback_study::consistency::{Ended, Progress, Study};
-use switchback_study::foreign::{Design, Estimates, ForeignError, ForeignEstimator, OwnMethod, Records};
+use switchback_study::foreign::{Design, Estimates, ForeignError, ForeignEstimator, Records};
 use switchback_study::results::{Cell, Parameter, Results};
 use switchback_study::scenario::{ForeignMethod, Scenario};
+use switchback_versions::OwnMethod;
 
 struct Silent;
 

@@ -1,6 +1,8 @@
 //! Methods of others in a study.
 
 mod accidents;
+mod alarms;
+mod bench;
 mod controls;
 mod protocol;
 

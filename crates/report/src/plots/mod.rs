@@ -6,6 +6,7 @@
 
 mod against;
 pub(crate) mod axis;
+mod bench;
 mod borders;
 pub(crate) mod canvas;
 mod convergence;
@@ -109,6 +110,7 @@ pub(crate) fn labelled(label: &str, otherwise: &str) -> String {
     }
 }
 
+pub use bench::history;
 pub use quantiles::quantiles;
 
 #[cfg(test)]

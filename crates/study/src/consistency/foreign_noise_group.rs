@@ -6,6 +6,7 @@ use super::controls::ControlPlan;
 use super::error::StudyError;
 use super::noise::STREAMS;
 use super::pulse_kind::PulseKind;
+use super::replicate_errors::ReplicateErrors;
 use super::sections::{CellSums, section};
 use super::setup::{DIRECTIONS, NoiseFilter, Setup};
 use super::workload::{Chunk, Task, Workload};
@@ -260,6 +261,15 @@ impl ForeignNoiseGroup {
         })
     }
 
+    /// The errors of some replicates: one entry a cell, with one a replicate.
+    pub(super) fn errors(&self, seed: u64, replicates: Range<u32>) -> Vec<Vec<ReplicateErrors>> {
+        let answers = self.answers(seed, replicates, &vec![true; self.cells.len()]);
+        let of_cell = |(cell, answers): (&ForeignCell, Vec<Answered>)| {
+            answers.into_iter().map(|answered| cell.errors(answered)).collect()
+        };
+        self.cells.iter().zip(answers).map(of_cell).collect()
+    }
+
     /// Some replicates of all active cells: one entry a cell, with one a replicate.
     fn answers(&self, seed: u64, replicates: Range<u32>, active: &[bool]) -> Vec<Vec<Answered>> {
         let noise: Vec<[NoiseSamples; 2]> = replicates.clone().map(|r| self.draw(seed, r)).collect();
@@ -304,6 +314,13 @@ impl ForeignCell {
             partner: self.is_paired.then(|| results.next().unwrap_or_else(unanswered)),
         };
         noise.iter().map(answered).collect()
+    }
+
+    fn errors(&self, answered: Answered) -> ReplicateErrors {
+        let errors = |found: Result<Estimates, String>| -> Result<Vec<f64>, String> {
+            Ok(found?.iter().zip(&self.spec.truth).map(|((value, _), truth)| value - truth).collect())
+        };
+        ReplicateErrors { own: errors(answered.own), partner: answered.partner.map(errors) }
     }
 
     /// Adds what a replicate gave.

@@ -7,19 +7,14 @@
 //! | `protocol` | requests and answers as lines of JSON |
 //! | `conversation` | one process, and what it answers |
 //! | `processes` | all processes of a method |
-//! | `service`, `own` | the other end: an estimator that answers lines; our methods as such |
 
 mod conversation;
 mod design;
 mod estimator;
-mod own;
 mod processes;
 mod protocol;
-mod service;
 
 pub use design::{Design, DesignExperiment};
 pub use estimator::{Estimates, ForeignError, ForeignEstimator, Records, checked};
-pub use own::OwnMethod;
-pub(crate) use processes::Processes;
-pub use protocol::{Answer, Greeting, PROTOCOL, Request, RequestExperiment, Stored};
-pub use service::answer_requests;
+pub use processes::Processes;
+pub use protocol::{Answer, Greeting, PROTOCOL, Request, RequestExperiment, Stored, schemas};

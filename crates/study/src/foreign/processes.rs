@@ -10,7 +10,7 @@ use switchback_io::output::in_shell;
 
 /// A command that is run in as many processes as are asked at once.
 #[derive(Debug)]
-pub(crate) struct Processes {
+pub struct Processes {
     name: String,
     command: Vec<String>,
     patience: Duration,
@@ -30,7 +30,7 @@ struct Pool {
 
 impl Processes {
     /// Of a method; nothing is begun yet. `None` where the method is no command.
-    pub(crate) fn of(method: &ForeignMethod) -> Option<Self> {
+    pub fn of(method: &ForeignMethod) -> Option<Self> {
         let Program::Command(command) = &method.program else { return None };
         Some(Self {
             name: method.name.as_str().to_owned(),

@@ -1,24 +1,26 @@
 //! Requests and answers as lines of JSON.
 
 use super::design::Design;
-use schemars::JsonSchema;
+use schemars::{JsonSchema, Schema};
 use serde::{Deserialize, Serialize};
 use switchback_identify::excitation::Direction;
+use switchback_io::output::schema;
 
 /// Name and version of the protocol.
 pub const PROTOCOL: &str = "switchback/method/1";
 
-/// The first line in either direction.
+/// The first line in either direction of the protocol `switchback/method/1`.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 pub struct Greeting {
-    /// [`PROTOCOL`].
+    /// `switchback/method/1`.
+    #[schemars(extend("const" = PROTOCOL))]
     pub schema: String,
     /// Version of the estimator; of the program in its own greeting.
     #[serde(default)]
     pub version: String,
 }
 
-/// One replicate of a cell: estimate its parameters.
+/// A request of the protocol `switchback/method/1`: one replicate of a cell, whose parameters are to be estimated.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct Request {
     /// To be repeated in the answer.
@@ -71,7 +73,7 @@ pub struct Stored {
     pub count: usize,
 }
 
-/// What is answered: estimates, or why there are none.
+/// An answer of the protocol `switchback/method/1`: estimates, or why there are none.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Answer {
@@ -86,6 +88,15 @@ pub struct Answer {
     /// Why there is no estimate.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub failed: Option<String>,
+}
+
+/// The JSON Schemas of a greeting, a request and an answer.
+pub fn schemas() -> [Schema; 3] {
+    [
+        schema::<Greeting>("switchback/method-greeting/1"),
+        schema::<Request>("switchback/method-request/1"),
+        schema::<Answer>("switchback/method-answer/1"),
+    ]
 }
 
 impl Answer {

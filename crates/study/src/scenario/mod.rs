@@ -269,7 +269,7 @@ impl Scenario {
     }
 
     /// The seed of every random stream.
-    pub(crate) fn seed(&self) -> u64 {
+    pub fn seed(&self) -> u64 {
         self.seed
     }
 
@@ -278,8 +278,13 @@ impl Scenario {
         self.replication
     }
 
+    /// Replicates that every cell takes; more where a precision is asked for.
+    pub fn replicates(&self) -> usize {
+        self.replication.replicates
+    }
+
     /// Whether the cells share their noise.
-    pub(crate) fn coupling(&self) -> Coupling {
+    pub fn coupling(&self) -> Coupling {
         self.coupling
     }
 
@@ -319,6 +324,20 @@ impl Scenario {
     pub fn with_methods(mut self, more: impl IntoIterator<Item = ForeignMethod>) -> Self {
         self.foreign.extend(more);
         self
+    }
+
+    /// The same scenario with these methods of others, and no other method.
+    #[must_use]
+    pub fn of_methods(mut self, methods: impl IntoIterator<Item = ForeignMethod>) -> Self {
+        self.foreign = methods.into_iter().collect();
+        self.sweep.methods.clear();
+        self
+    }
+
+    /// The same scenario with other noise.
+    #[must_use]
+    pub fn with_seed(self, seed: u64) -> Self {
+        Self { seed, ..self }
     }
 
     /// The file's content as written, for the results to echo.

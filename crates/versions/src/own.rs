@@ -1,12 +1,11 @@
 //! Our methods behind the interface of those of others.
 
-use super::design::Design;
-use super::estimator::{Estimates, ForeignError, ForeignEstimator, Records};
 use switchback_identify::Method;
 use switchback_identify::excitation::Direction;
 use switchback_identify::pulse::{PulseData, PulseMethod};
 use switchback_model::Record;
 use switchback_model::hysteresis::Branch;
+use switchback_study::foreign::{Design, Estimates, ForeignError, ForeignEstimator, Records};
 
 /// One of our methods that need both pulse experiments and nothing else, as an estimator sees it that knows records alone.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

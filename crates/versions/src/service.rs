@@ -1,12 +1,13 @@
 //! The other end of the protocol: an estimator that answers lines.
 
-use super::design::{Design, DesignExperiment};
-use super::estimator::{Estimates, ForeignEstimator, Records};
-use super::protocol::{Answer, Greeting, PROTOCOL, Request, Stored};
 use std::io;
 use std::path::Path;
 use switchback_host::{numbers, serve};
 use switchback_identify::excitation::Direction;
+use switchback_study::foreign::{
+    Answer, Design, DesignExperiment, Estimates, ForeignEstimator, Greeting, PROTOCOL, Records, Request,
+    Stored,
+};
 
 /// Answers requests on standard input until there are no more.
 ///
