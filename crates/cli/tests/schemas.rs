@@ -2,6 +2,7 @@
 //! says, and no schema allows a key that it does not describe.
 
 use crate::common::{BLIND, Folder, STUDY};
+use crate::foreign::study;
 use jsonschema::Validator;
 use schemars::Schema;
 use serde_json::Value;
@@ -11,6 +12,7 @@ use std::path::{Path, PathBuf};
 use std::thread;
 use switchback_io::output::schema_text;
 use switchback_lab::selftest::{Figure, Finding, json as selftest_json};
+use switchback_study::foreign::Answer;
 
 fn root() -> &'static Path {
     Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../.."))
@@ -214,6 +216,34 @@ fn studies() -> Vec<Written> {
         .collect();
     written.push(printed(&folder, &["replay", "study", "0:3", "--json"]));
     written.push(printed(&folder, &["compare", "study", "study", "--json"]));
+    let bench = ["bench", "study.toml", "joint", "memoryless", "--history", "kept.jsonl", "--label", "v1"];
+    written.extend(printed_and_written(&folder, &bench, "bench"));
+    written.extend(Written::lines(&folder.path("kept.jsonl"), "switchback/bench-history/1"));
+    written
+}
+
+/// Both sides of a conversation with a method of others, and the study that came out.
+fn conversations() -> Vec<Written> {
+    let folder = Folder::with_good_rig();
+    let program = env!("CARGO_BIN_EXE_switchback");
+    folder.write("listen.sh", &format!("tee requests | '{program}' method joint | tee answers\n"));
+    folder.write("study.toml", &study(&["sh", "listen.sh"], "workers = 1"));
+    let output = folder.switchback(&["study.toml", "--quiet", "--out", "study"]).output().expect("it runs");
+    assert_eq!(output.status.code(), Some(0), "{}", String::from_utf8_lossy(&output.stderr));
+    let mut written = Written::in_report(&folder.path("study"));
+    for (file, kind) in [("requests", "request"), ("answers", "answer")] {
+        let mut lines = Written::lines(&folder.path(file), &format!("switchback/method-{kind}/1"));
+        assert!(lines.len() > 40, "{file} holds {} lines", lines.len());
+        lines[0].layout = "switchback/method-greeting/1".to_owned();
+        written.extend(lines);
+    }
+    let failed = Answer { id: 7, estimate: None, se: None, failed: Some("singular".to_owned()) };
+    let object = serde_json::to_value(&failed).expect("JSON");
+    written.push(Written {
+        from: "a failure".to_owned(),
+        layout: "switchback/method-answer/1".to_owned(),
+        object,
+    });
     written
 }
 
@@ -295,7 +325,7 @@ fn schemas_are_those_of_the_types() {
 
 #[test]
 fn whatever_is_written_is_what_its_schema_says() {
-    let makers = [identifications, diagnoses, models, studies, the_rest, committed];
+    let makers = [identifications, diagnoses, models, studies, conversations, the_rest, committed];
     let written: Vec<Written> = thread::scope(|scope| {
         let runs = makers.map(|make| scope.spawn(make));
         runs.into_iter().flat_map(|run| run.join().expect("it does not panic")).collect()

@@ -8,7 +8,8 @@ use switchback_io::output::print;
 use switchback_io::{identification, model, provenance};
 use switchback_lab::{plant, power, selftest};
 use switchback_report::{diagnosis, simulation};
-use switchback_study::{compare, design, results};
+use switchback_study::{compare, design, foreign, results};
+use switchback_versions as bench;
 
 /// Print the JSON Schemas of all that the program writes, as one list.
 #[derive(Debug, clap::Args)]
@@ -27,11 +28,17 @@ pub(crate) fn run(_: &Args) -> CommandResult {
 /// Every schema; its title is the name and version of the layout.
 fn schemas() -> Vec<Schema> {
     let [rig, rig_list] = rig::schemas();
+    let [greeting, request, answer] = foreign::schemas();
     vec![
+        bench::schema(),
+        bench::history_schema(),
         calibrate::schema(),
         compare::schema(),
         consistency::part_schema(),
         design::schema(),
+        greeting,
+        request,
+        answer,
         diagnosis::schema(),
         identification::schema(),
         model::schema(),
