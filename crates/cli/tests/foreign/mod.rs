@@ -6,6 +6,7 @@ mod bench;
 mod controls;
 mod protocol;
 
+mod resume;
 use crate::common::{Folder, STUDY};
 use std::process::Output;
 use switchback_study::results::{self, Results};
