@@ -4,9 +4,10 @@ mod accidents;
 mod alarms;
 mod bench;
 mod controls;
+mod overhead;
 mod protocol;
-
 mod resume;
+
 use crate::common::{Folder, STUDY};
 use std::process::Output;
 use switchback_study::results::{self, Results};
