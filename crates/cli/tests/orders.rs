@@ -50,7 +50,7 @@ fn every_order_up_to_twenty_is_estimated_by_every_method() {
 }
 
 /// SHA-256 of `results.json` of scenarios/quick.toml. It depends on the order of every sum, and on the exponentials and logarithms of the platform's
-/// mathematical library in normal noise, theory and verdicts: this is that of x86-64 Linux with glibc.
+/// mathematical library in theory and verdicts: this is that of x86-64 Linux with glibc.
 const QUICK: &str = "fac7055f478402335aafae6a12bb079d69efc9f05275658d7dda4e83aa5870a6";
 
 #[test]
