@@ -30,6 +30,7 @@ pub(crate) fn sections() -> miette::Result<Quotes> {
         ("leafspring-short", block(&rows(&leafspring, &["sd slope", " descending "])?)),
         ("leafspring", block(&leafspring)),
         ("assumptions-broken", block(&study("assumptions-broken")?)),
+        ("estimators", block(&rows(&study("estimators")?, &["sd slope", " a    ", " descending "])?)),
         ("measured-rigs", fits(Path::new("reports/measured-rigs/fits.csv"))?),
         ("gap", verdict("reports/gap-leaf-spring-with-backlash/verdict.txt")?),
         ("gap-piezo-stage", verdict("reports/measured-rigs/gap-piezo-stage.txt")?),
