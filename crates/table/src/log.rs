@@ -4,6 +4,7 @@
 //! logger. Messages are described by the definitions of ROS 2 in the log itself.
 
 use crate::table::{Table, TableError};
+use std::io;
 use std::path::Path;
 
 #[cfg(feature = "mcap")]
@@ -19,7 +20,7 @@ mod unreadable;
 #[cfg(feature = "mcap")]
 mod write;
 
-pub use topic::{LogField, LogTopic, WRITES_LOGS, log_bytes};
+pub use topic::{LogField, LogTopic};
 
 /// How a log begins.
 const MAGIC: &[u8] = b"\x89MCAP0\r\n";
@@ -70,5 +71,22 @@ pub(crate) fn read(path: &Path, choice: Choice<'_>) -> Result<Table, TableError>
             }
             Ok(whole)
         }
+    }
+}
+
+/// Whether this program was built to write logs.
+pub const WRITES_LOGS: bool = cfg!(feature = "mcap");
+
+/// The bytes of an MCAP log whose messages are described as those of ROS 2.
+///
+/// # Errors
+/// Where the program was built without the feature `mcap`.
+pub fn log_bytes(topics: &[LogTopic]) -> io::Result<Vec<u8>> {
+    #[cfg(feature = "mcap")]
+    return write::bytes(topics).map_err(io::Error::other);
+    #[cfg(not(feature = "mcap"))]
+    {
+        let _unwritten = topics;
+        Err(io::Error::new(io::ErrorKind::Unsupported, "this program was built without the feature `mcap`"))
     }
 }

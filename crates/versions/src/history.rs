@@ -8,7 +8,7 @@ use schemars::{JsonSchema, Schema};
 use serde::{Deserialize, Serialize};
 use std::path::Path;
 use std::str::FromStr;
-use switchback_io::input::{FileError, read_text};
+use switchback_io::input::{FileError, TextKind, read_text};
 use switchback_io::output::schema as schema_of;
 use thiserror::Error;
 
@@ -145,7 +145,7 @@ impl History {
         if !path.exists() {
             return Ok(Self::default());
         }
-        let text = read_text(path)?;
+        let text = read_text(path, TextKind::Results)?;
         let lines = text.lines().enumerate().filter(|(_, line)| !line.trim().is_empty());
         let entry = |(k, line): (usize, &str)| {
             let refused = |error: serde_json::Error| HistoryError::NoEntry {

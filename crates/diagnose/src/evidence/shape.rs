@@ -133,16 +133,23 @@ impl Cells {
     }
 }
 
+/// Cells along a quantity of the samples.
+struct Axis<'a> {
+    name: &'static str,
+    /// Between these, below the first and above the last.
+    edges: &'static [f64],
+    values: &'a [f64],
+}
+
 fn profiles(z: &[f64], setting: &Setting, add: &mut dyn FnMut(&str, f64)) {
     let signed: Vec<f64> = z.iter().zip(&setting.branch).map(|(z, b)| z * b).collect();
-    let among = |edges: &'static [f64], x: &'static str| (edges, x);
-    let axes: [((&[f64], &str), &Vec<f64>); 4] = [
-        (among(&[0.01, 0.03, 0.08, 0.2, 0.5], "travel"), &setting.travel),
-        (among(&[2.0, 4.0, 8.0, 20.0, 60.0], "since"), &setting.since),
-        (among(&[0.3, 0.7, 1.2, 2.0], "speed"), &setting.speed),
-        (among(&[1.0, 4.0, 15.0, 60.0], "rest"), &setting.rest),
+    let axes = [
+        Axis { name: "travel", edges: &[0.01, 0.03, 0.08, 0.2, 0.5], values: &setting.travel },
+        Axis { name: "since", edges: &[2.0, 4.0, 8.0, 20.0, 60.0], values: &setting.since },
+        Axis { name: "speed", edges: &[0.3, 0.7, 1.2, 2.0], values: &setting.speed },
+        Axis { name: "rest", edges: &[1.0, 4.0, 15.0, 60.0], values: &setting.rest },
     ];
-    for ((edges, name), values) in axes {
+    for Axis { name, edges, values } in axes {
         let cell = |t: usize| edges.partition_point(|e| *e <= values[t]);
         let of_branch = Cells::of(&signed, edges.len() + 1, &cell);
         let plain = Cells::of(z, edges.len() + 1, &cell);

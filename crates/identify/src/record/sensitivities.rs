@@ -138,7 +138,12 @@ fn errors(stretch: &Stretch, run: &[f64]) -> Vec<f64> {
 }
 
 /// Filters signals of a record, and removes from each the traces that initial states of the linear part could leave.
-pub fn filter_and_project(system: &System, stretch: &Stretch, signals: &mut [Vec<f64>], criterion: &Criterion) {
+pub fn filter_and_project(
+    system: &System,
+    stretch: &Stretch,
+    signals: &mut [Vec<f64>],
+    criterion: &Criterion,
+) {
     for signal in signals.iter_mut() {
         *signal = criterion.filtered(std::mem::take(signal));
     }

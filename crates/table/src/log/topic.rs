@@ -1,7 +1,6 @@
 //! What a log that is written holds.
 
 use std::collections::BTreeSet;
-use std::io;
 
 /// A topic: numbers at instants.
 #[derive(Debug, Clone, PartialEq)]
@@ -52,23 +51,6 @@ impl LogTopic {
         let upper = |word: &str| word[..1].to_uppercase() + &word[1..];
         let words = self.name.split(['/', '_']).filter(|word| !word.is_empty());
         format!("switchback_msgs/msg/{}", words.map(upper).collect::<String>())
-    }
-}
-
-/// Whether this program was built to write logs.
-pub const WRITES_LOGS: bool = cfg!(feature = "mcap");
-
-/// The bytes of an MCAP log whose messages are described as those of ROS 2.
-///
-/// # Errors
-/// Where the program was built without the feature `mcap`.
-pub fn log_bytes(topics: &[LogTopic]) -> io::Result<Vec<u8>> {
-    #[cfg(feature = "mcap")]
-    return super::write::bytes(topics).map_err(io::Error::other);
-    #[cfg(not(feature = "mcap"))]
-    {
-        let _unwritten = topics;
-        Err(io::Error::new(io::ErrorKind::Unsupported, "this program was built without the feature `mcap`"))
     }
 }
 

@@ -3,13 +3,12 @@
 use crate::table::{Column, Kind, Place, Table, empty_column};
 use parquet::basic::{LogicalType, TimeUnit, Type as Physical};
 use parquet::errors::ParquetError;
-use parquet::file::reader::FileReader;
+use parquet::file::reader::{ChunkReader, FileReader};
 use parquet::file::serialized_reader::SerializedFileReader;
 use parquet::record::{Field, Row};
 use parquet::schema::types::{Type, TypePtr};
 use std::collections::BTreeSet;
 use std::fmt::Write;
-use std::fs::File;
 use std::path::Path;
 
 /// Most numbers of a list that are columns: more are pictures.
@@ -45,7 +44,7 @@ pub(super) struct Rows {
 ///
 /// # Errors
 /// Where it is no such file, has no numbers, or is broken before its first row.
-pub(super) fn collect(file: File) -> Result<Rows, String> {
+pub(super) fn collect(file: impl ChunkReader + 'static) -> Result<Rows, String> {
     let worded = |error: ParquetError| worded(&error);
     let reader = SerializedFileReader::new(file).map_err(worded)?;
     let schema = reader.metadata().file_metadata().schema();
