@@ -4,7 +4,7 @@
 //!   rig; shards are begun beside each other and are the same at any number of threads
 //! - `… -- report TABLE.csv`: each population's shares out of fold, and the thresholds of least loss
 //! - `… -- fit TABLE.csv POSTERIOR.bin`: learns and writes the weights
-//! - `… -- compare TABLE.csv FOLDER`: trees, network, ranker and their mean on the same folds, `comparison.md` and `comparison.json`
+//! - `… -- compare TABLE.csv FOLDER`: trees, network, ranker and their mean on the same folds, `comparison.md`
 //! - `… -- thresholds TABLE.csv POSTERIOR.bin`: thresholds of what is reported, by losses, on rows that the posterior did not learn
 //!
 //! `TABLE.csv` may be a folder of such tables with the same columns. `RIGS` is the folder of measured rigs, `../shared/rigs` if nothing is said.
@@ -26,8 +26,8 @@ use switchback_io::input::own;
 use switchback_io::output::{Artefacts, OutputFile, OutputFolder, note, print};
 use switchback_lab::examination::measured_rigs;
 use switchback_lab::learning::{
-    Binned, BoostingSettings, Group, LearningSettings, Table, Target, boost, compare, fit, fit_thresholds,
-    held_out, markdown, outcomes, populations,
+    Binned, BoostingSettings, Compared, Comparison, Group, LearningSettings, Population, Table, Target,
+    boost, compare, fit, fit_thresholds, held_out, outcomes, populations,
 };
 use switchback_lab::population::{EvidenceRow, MeasuredBases, draw};
 
@@ -59,10 +59,9 @@ fn run() -> miette::Result<()> {
             let place = OutputFolder::claim(Path::new(to), false).into_diagnostic()?;
             let comparison = compare(&table(from)?, &settings);
             let mut files = Artefacts::default();
-            files.add("comparison.md", comparison.markdown());
-            files.add("comparison.json", comparison.json());
+            files.add("comparison.md", learners(&comparison));
             place.commit(&files).into_diagnostic()?;
-            print(&comparison.markdown())
+            print(&learners(&comparison))
         }
         ["evidence", seed, first, count, to, rest @ ..] => {
             let place = OutputFile::claim(Path::new(to), false, &[]).into_diagnostic()?;
@@ -73,7 +72,7 @@ fn run() -> miette::Result<()> {
             let (judged, p) = held_out(&table(from)?, &settings);
             let outcomes = outcomes(&judged.classes);
             let (thresholds, loss) = fit_thresholds(&p, &judged.labels, &outcomes, &Losses::default());
-            print(&markdown(&populations(&judged, &p, &outcomes, &thresholds)))?;
+            print(&shares(&populations(&judged, &p, &outcomes, &thresholds)))?;
             print(&format!(
                 "named from {:.3}, class from {:.3}: mean loss {loss:.3}\n",
                 thresholds.named, thresholds.class
@@ -195,4 +194,50 @@ fn time(rows: usize, columns: usize, classes: usize) -> miette::Result<()> {
         settings.rounds,
         spent / 60.0
     ))
+}
+
+/// Learners in Markdown.
+fn learners(comparison: &Comparison) -> String {
+    let mut text = String::from(
+        "| learner | rows | log score | Brier | calibration error (perfect) | first | first five |\n|---|--:|--:|--:|--:|--:|--:|\n",
+    );
+    for Compared { name, scores: s, .. } in &comparison.all {
+        let _ = writeln!(
+            text,
+            "| {name} | {} | {:.3} | {:.3} | {:.3} ({:.3}) | {:.1} % | {:.1} % |",
+            s.rows,
+            s.log,
+            s.brier,
+            s.calibration,
+            s.perfect,
+            100.0 * s.top1,
+            100.0 * s.top5
+        );
+    }
+    text
+}
+
+/// Shares of populations in Markdown.
+fn shares(all: &[Population]) -> String {
+    let mut text = String::from(
+        "| population | causes | exact | class | class, effects alike | first five | named or class | wrong of these | else on the shortlist | \
+         nothing: named | foreign: named |\n|---|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|\n",
+    );
+    for p in all {
+        let percent = |x: &f64| format!("{:.1} %", 100.0 * x);
+        let guess: Vec<String> = p.guess.iter().map(percent).collect();
+        let reported: Vec<String> = p.reported.iter().map(percent).collect();
+        let of = |(count, share): &(usize, f64)| format!("{} of {count}", percent(share));
+        let _ = writeln!(
+            text,
+            "| {} | {} | {} | {} | {} | {} |",
+            p.name,
+            p.causes,
+            guess.join(" | "),
+            reported.join(" | "),
+            of(&p.nothing),
+            of(&p.foreign)
+        );
+    }
+    text
 }

@@ -241,7 +241,12 @@ pub(super) fn own_errors(
         let value = quantity.value(system);
         let slope = |c: &Quantity| {
             let step = c.step(system, scale);
-            (quantity.value(&c.set(system, c.value(system) + step)) - value) / step
+            // A move of a coefficient may make a pair of two equal poles, which have other quantities; the other way it makes none.
+            let tried = [step, -step].into_iter().find_map(|step| {
+                let moved = c.set(system, c.value(system) + step);
+                has(&moved, *quantity).then(|| (quantity.value(&moved) - value) / step)
+            });
+            tried.unwrap_or(0.0)
         };
         let gradient = DVector::from_fn(count, |i, _| slope(&coordinates[i]) / sizes[i]);
         let direction = solve(&gradient);
@@ -249,6 +254,16 @@ pub(super) fn own_errors(
         gradient.dot(&direction).max(scatter).sqrt()
     };
     quantities.iter().map(of).collect()
+}
+
+/// Whether a system has a quantity.
+fn has(system: &System, quantity: Quantity) -> bool {
+    match quantity {
+        Quantity::TimeConstant(_) | Quantity::Frequency(_) | Quantity::Damping(_) => {
+            Quantity::all(system).contains(&quantity)
+        }
+        _ => true,
+    }
 }
 
 /// What each term would gain in `Σρ` once its change of the run, by finite difference, is scaled freely, beside the given quantities.

@@ -1,6 +1,7 @@
 //! From a nominal system and records to columns.
 
-use super::candidates::{Candidate, Candidates, effects};
+use super::candidate::{Candidate, Candidates};
+use super::candidates::{candidates, effects};
 use super::context::{Context, Signal};
 use super::grams::Grams;
 use super::likelihood::{Likelihood, Likelihoods};
@@ -45,7 +46,7 @@ impl Evidence {
         }
         let jacobian = context.jacobian(&runs);
         let setting = Setting::of(&context, &runs);
-        let candidates = Candidates::of(&context, (&runs, &errors), &setting);
+        let candidates = candidates(&context, (&runs, &errors), &setting);
         let mut out: Columns = Vec::new();
 
         let free = Criterion { filter: Vec::new(), sd: 1.0 };

@@ -11,6 +11,7 @@
 //! `r` is white, `v` so that the remainder beside the best candidates is white. Beside these the shape of `r`. Columns are named `EFFECT.STATISTIC` or `STATISTIC`; none
 //! changes with the units of input or output.
 
+mod candidate;
 mod candidates;
 mod columns;
 mod context;

@@ -1,6 +1,6 @@
 //! Further shapes in which effects appear: signals added to the working point or to the output, to first order.
 
-use super::candidates::Candidates;
+use super::candidate::Candidates;
 use super::context::{Context, Signal};
 use super::setting::{Setting, quantile};
 

@@ -61,10 +61,14 @@ fn a_play_gains_most_and_has_its_size() {
     assert!(column(&none, "fit_first") < 0.02, "{}", column(&none, "fit_first"));
 }
 
+/// Where only units change all columns are the same; another zero of the input moves the phase at which a ripple starts. The zero of the output is
+/// where a slack lies and what a gain turns about, so that it does matter.
 #[test]
 fn units_change_no_column() {
     let one = judged(&rig(0.2, [1.0, 0.0], [1.0, 0.0])).evidence;
-    for (v, y) in [([1e3, 0.0], [1.0, 0.0]), ([1.0, 0.0], [1e-3, 0.0]), ([25.4, 3.0], [4.4, -20.0])] {
+    for (v, y, most) in
+        [([1e3, 0.0], [1.0, 0.0], 0.01), ([1.0, 0.0], [1e-3, 0.0], 0.01), ([25.4, 3.0], [4.4, 0.0], 0.03)]
+    {
         let other = judged(&rig(0.2, v, y)).evidence;
         assert_eq!(one.columns.len(), other.columns.len());
         let differ = one.columns.iter().zip(&other.columns).filter(|((name, x), (same, y))| {
@@ -73,7 +77,11 @@ fn units_change_no_column() {
         });
         // Which of two shapes that explain as much comes first may turn on rounding.
         let differ: Vec<_> = differ.collect();
-        assert!(differ.len() * 50 < one.columns.len(), "{v:?} {y:?} {} {differ:?}", differ.len());
+        assert!(
+            (differ.len() as f64) < most * one.columns.len() as f64,
+            "{v:?} {y:?} {} {differ:?}",
+            differ.len()
+        );
     }
 }
 

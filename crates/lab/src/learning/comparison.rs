@@ -6,8 +6,6 @@ use super::scores::{Scores, scores};
 use super::settings::LearningSettings;
 use super::table::Table;
 use crate::examination::uniform;
-use serde::Serialize;
-use std::fmt::Write;
 
 /// A learner's scores on rows whose base and law it did not learn.
 #[derive(Debug, Clone, PartialEq)]
@@ -52,62 +50,4 @@ pub fn compare(table: &Table, settings: &LearningSettings) -> Comparison {
         add("together", &mixed(&found, &weights));
     }
     Comparison { all }
-}
-
-/// A line of the JSON.
-#[derive(Serialize)]
-struct Line<'a> {
-    name: &'a str,
-    share: f64,
-    rows: usize,
-    log_score: f64,
-    brier: f64,
-    calibration_error: f64,
-    calibration_error_if_perfect: f64,
-    top1: f64,
-    top5: f64,
-}
-
-impl Comparison {
-    /// A table in Markdown.
-    pub fn markdown(&self) -> String {
-        let mut text = String::from(
-            "| learner | rows | log score | Brier | calibration error (perfect) | first | first five |\n|---|--:|--:|--:|--:|--:|--:|\n",
-        );
-        for Compared { name, scores: s, .. } in &self.all {
-            let _ = writeln!(
-                text,
-                "| {name} | {} | {:.3} | {:.3} | {:.3} ({:.3}) | {:.1} % | {:.1} % |",
-                s.rows,
-                s.log,
-                s.brier,
-                s.calibration,
-                s.perfect,
-                100.0 * s.top1,
-                100.0 * s.top5
-            );
-        }
-        text
-    }
-
-    /// The same as JSON.
-    pub fn json(&self) -> String {
-        let line = |c: &Compared| {
-            let s = c.scores;
-            serde_json::to_value(Line {
-                name: &c.name,
-                share: c.share,
-                rows: s.rows,
-                log_score: s.log,
-                brier: s.brier,
-                calibration_error: s.calibration,
-                calibration_error_if_perfect: s.perfect,
-                top1: s.top1,
-                top5: s.top5,
-            })
-            .expect("numbers and names are JSON")
-        };
-        let lines: Vec<_> = self.all.iter().map(line).collect();
-        format!("{:#}\n", serde_json::json!({ "learners": lines }))
-    }
 }

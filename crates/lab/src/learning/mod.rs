@@ -29,7 +29,7 @@ pub use combined::{Models, fit, held_out};
 pub use comparison::{Compared, Comparison, compare};
 pub use folds::{Fold, folds};
 pub use network::{NetworkSettings, train_network};
-pub use populations::{Population, markdown, populations};
+pub use populations::{Population, populations};
 pub use scores::{Scores, scores};
 pub use settings::LearningSettings;
 pub use table::{Group, Table, TableError, Truth};

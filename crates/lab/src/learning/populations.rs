@@ -1,7 +1,6 @@
 //! How a posterior does on each population: its best guess, and what is reported.
 
 use super::table::Table;
-use std::fmt::Write;
 use switchback_diagnose::Effect;
 use switchback_diagnose::posterior::{Decision, Outcome, Thresholds, decide};
 
@@ -122,29 +121,4 @@ fn population(
         nothing: wrongly("nothing"),
         foreign: wrongly("foreign"),
     }
-}
-
-/// A table in Markdown.
-pub fn markdown(all: &[Population]) -> String {
-    let mut text = String::from(
-        "| population | causes | exact | class | class, effects alike | first five | named or class | wrong of these | else on the shortlist | \
-         nothing: named | foreign: named |\n|---|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|\n",
-    );
-    for p in all {
-        let percent = |x: &f64| format!("{:.1} %", 100.0 * x);
-        let guess: Vec<String> = p.guess.iter().map(percent).collect();
-        let reported: Vec<String> = p.reported.iter().map(percent).collect();
-        let of = |(count, share): &(usize, f64)| format!("{} of {count}", percent(share));
-        let _ = writeln!(
-            text,
-            "| {} | {} | {} | {} | {} | {} |",
-            p.name,
-            p.causes,
-            guess.join(" | "),
-            reported.join(" | "),
-            of(&p.nothing),
-            of(&p.foreign)
-        );
-    }
-    text
 }

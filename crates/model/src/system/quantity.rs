@@ -45,6 +45,8 @@ pub struct Change {
 
 /// Shortest time constant, samples: what is left of it after a sample is 2·10⁻⁹.
 const SHORTEST: f64 = 0.05;
+/// Longest time constant, samples: a pole that is one has none.
+const LONGEST: f64 = 1e9;
 
 /// Places over the stroke at which borders are compared.
 const PLACES: usize = 33;
@@ -162,7 +164,7 @@ impl Quantity {
             Self::TimeConstant(k) => {
                 let (at, _) = reals(system).nth(k).expect("a real pole");
                 let mut modes = system.linear.modes().to_vec();
-                modes[at] = Mode::Real((-1.0 / value.max(SHORTEST)).exp());
+                modes[at] = Mode::Real((-1.0 / value.clamp(SHORTEST, LONGEST)).exp());
                 out.linear = system.linear.with_modes(&modes);
             }
             Self::Frequency(k) => {
