@@ -60,6 +60,8 @@
 //! | `attribution` | effects looked at, fitted, composed: candidates, best first |
 //! | `residuals` | tests of what a candidate leaves: in general, by frequency, by parameter |
 //! | `simulation` | free runs of what is fitted |
+//! | `evidence` | columns of numbers about every effect beside a nominal system without effects |
+//! | `differences` | a machine beside another source: values and effects in which both differ, and the `price` of each |
 //! | `posterior` | trained weights: probabilities of all outcomes from columns of evidence, and what is reported of them |
 //! | `verdict` | calibrated odds of the candidates, and what is reported |
 //! | `localise`, `closure`, `experiments` | where, how far, and the record that would separate rivals |
@@ -78,7 +80,6 @@ mod effect;
 mod effects;
 mod error;
 pub mod evidence;
-
 mod experiments;
 mod export;
 mod figure;
@@ -92,6 +93,7 @@ mod nominal;
 mod nominal_model;
 mod phase;
 pub mod posterior;
+mod price;
 mod records;
 mod residuals;
 mod settings;

@@ -1,7 +1,8 @@
 //! The table of differences.
 
 use super::selection::{Context, Difference, Selected, quantities, with};
-use super::surrogate::{own_errors, price};
+use super::surrogate::own_errors;
+use crate::price::price;
 use nalgebra::{DMatrix, DVector};
 use switchback_identify::record::{Sensitivities, Stretch};
 use switchback_model::system::{Quantity, System, Unit};

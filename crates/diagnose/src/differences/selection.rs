@@ -1,6 +1,7 @@
 //! Which differences the machine's records call for.
 
-use super::surrogate::{gains, of_term, price, scores, starts};
+use super::surrogate::{gains, scores, starts};
+use crate::price::price;
 use switchback_identify::record::{Criterion, Effort, Sensitivities, Stretch, fit};
 use switchback_model::system::{Quantity, Scale, System, Term};
 
@@ -31,7 +32,7 @@ pub(super) fn with(base: &System, differences: &[Difference]) -> (System, Vec<Qu
     for difference in differences {
         if let Difference::Effect(term) = difference {
             system.terms.push(term.clone());
-            free.extend(of_term(&system, system.terms.len() - 1));
+            free.extend(Quantity::of_term(&system, system.terms.len() - 1));
         }
     }
     let mut own: Vec<(Quantity, f64)> = differences
@@ -167,5 +168,5 @@ impl Context<'_> {
 
 /// What may have another value in the machine: the base's own quantities, and the parameters of its effects.
 pub(super) fn quantities(base: &System) -> impl Iterator<Item = Quantity> + '_ {
-    Quantity::all(base).into_iter().chain((0..base.terms.len()).flat_map(|k| of_term(base, k)))
+    Quantity::all(base).into_iter().chain((0..base.terms.len()).flat_map(|k| Quantity::of_term(base, k)))
 }

@@ -1,6 +1,7 @@
 //! A system in place of a source of which only predictions are known.
 
 use crate::evidence::nominal;
+use crate::price::price;
 use nalgebra::{DMatrix, DVector};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
@@ -19,19 +20,6 @@ const MOST_EFFECTS: usize = 3;
 const LEAST_GAIN: f64 = 0.8;
 /// Candidates that are fitted, of those looked at.
 const FITTED: usize = 4;
-
-/// The free numbers of a system: borders, linear part, the parameters of its terms.
-pub(super) fn coordinates(system: &System) -> Vec<Quantity> {
-    let knots = (0..system.borders.count()).map(Quantity::Knot);
-    let coefficients = (0..system.linear.coefficients()).map(Quantity::Coefficient);
-    knots.chain(coefficients).chain((0..system.terms.len()).flat_map(|k| of_term(system, k))).collect()
-}
-
-/// The free parameters of a term.
-pub(super) fn of_term(system: &System, term: usize) -> Vec<Quantity> {
-    let parameters = system.terms[term].law.parameters().iter().enumerate();
-    parameters.filter(|(_, p)| p.free).map(|(k, _)| Quantity::Value(term, k)).collect()
-}
 
 /// Everything that fits of a surrogate are compared by.
 struct Search<'a> {
@@ -78,13 +66,14 @@ fn with_noise(record: &Record, sd: f64, number: usize) -> Record {
 
 impl Search<'_> {
     fn fit(&self, system: &System, effort: Effort) -> (System, f64) {
-        fit(system, &coordinates(system), self.stretches, (&self.criterion, &self.scale), effort)
+        fit(system, &Quantity::coordinates(system), self.stretches, (&self.criterion, &self.scale), effort)
     }
 
     /// Deviance and price of all its numbers.
     fn worth(&self, (system, deviance): &(System, f64)) -> f64 {
         // A misfit below the one that matters is none.
-        deviance.max(SMALL_MISFIT * self.samples as f64) + price(self.samples, coordinates(system).len())
+        deviance.max(SMALL_MISFIT * self.samples as f64)
+            + price(self.samples, Quantity::coordinates(system).len())
     }
 
     /// The system with effects, poles and knots added while these explain enough, and without those that are needless then.
@@ -95,10 +84,10 @@ impl Search<'_> {
             if deviance < SMALL_MISFIT * self.samples as f64 {
                 break;
             }
-            let now = coordinates(&system).len();
+            let now = Quantity::coordinates(&system).len();
             let tried = self.larger(&system).into_iter().map(|start| {
                 let (with, deviance) = self.fit(&start, Effort::SEARCH);
-                let more = coordinates(&with).len().saturating_sub(now);
+                let more = Quantity::coordinates(&with).len().saturating_sub(now);
                 (deviance + price(self.samples, more), with, deviance)
             });
             let Some((worth, best, least)) = tried.min_by(|x, y| x.0.total_cmp(&y.0)) else { break };
@@ -150,7 +139,7 @@ impl Search<'_> {
         let mut starts = starts(&self.scale, &system.terms);
         starts.retain(|term| term.law.effect() != "extra_pole");
         let context = (&self.criterion, &self.scale);
-        let scores = scores(system, &coordinates(system), &starts, self.stretches, context);
+        let scores = scores(system, &Quantity::coordinates(system), &starts, self.stretches, context);
         let mut scored: Vec<(f64, Term)> = Vec::new();
         for (term, score) in starts.into_iter().zip(scores) {
             let name = |t: &Term| (t.law.effect(), t.law.name());
@@ -189,13 +178,6 @@ fn smaller(system: &System) -> Vec<(System, usize)> {
     all
 }
 
-/// What parameters must gain in `Σρ` to be taken: the extended BIC with `γ = 1`, of so many laws.
-///
-/// J. Chen, Z. Chen, Biometrika 95 (2008), doi 10.1093/biomet/asn034.
-pub(super) fn price(samples: usize, parameters: usize) -> f64 {
-    parameters as f64 * ((samples.max(2) as f64).ln() + 2.0 * (LAWS.len() as f64).ln())
-}
-
 /// Every start of every law of an effect that is not there yet.
 pub(super) fn starts(scale: &Scale, present: &[Term]) -> Vec<Term> {
     let absent = LAWS.iter().filter(|law| present.iter().all(|t| t.law.effect() != law.effect()));
@@ -221,7 +203,7 @@ pub(super) fn own_errors(
         .map(|s| s.simulate(system).iter().zip(&s.y).map(|(run, y)| y - run).collect())
         .collect();
     let criterion = Criterion::of(&errors);
-    let coordinates = coordinates(system);
+    let coordinates = Quantity::coordinates(system);
     let local = Sensitivities::of(system, &coordinates, records, (&criterion, scale));
     let count = coordinates.len();
     let sizes = DVector::from_fn(count, |i, _| local.information[(i, i)].sqrt().max(f64::MIN_POSITIVE));

@@ -3,7 +3,7 @@
 use super::context::Signal;
 use switchback_model::system::Term;
 
-/// A way in which an effect may show: columns that are scaled freely.
+/// One shape of an effect: columns with free coefficients.
 #[derive(Debug, Clone)]
 pub(super) struct Candidate {
     pub(super) effect: &'static str,

@@ -7,7 +7,7 @@ use super::grams::Grams;
 use super::likelihood::{Likelihood, Likelihoods};
 use super::refine::{Filtered, Refined};
 use super::score::{Score, score, share};
-use super::setting::{Setting, quantile};
+use super::setting::{Setting, quantile, spread};
 use super::shape::{Columns, lattice, shape};
 use nalgebra::DVector;
 use switchback_identify::record::{Criterion, Stretch};
@@ -124,8 +124,7 @@ fn metric(
     let mut filtered = context.filtered(&signals, criterion);
     let jacobian = filtered.split_off(1 + columns.len());
     if is_drawn_in {
-        let sizes: Vec<f64> = filtered[0].iter().flatten().map(|x| x.abs()).collect();
-        let most = DRAWN_IN * quantile(&sizes, 0.5) / 0.6745;
+        let most = DRAWN_IN * spread(filtered[0].iter().flatten().copied());
         if most > 0.0 {
             filtered[0].iter_mut().flatten().for_each(|x| *x = x.clamp(-most, most));
         }

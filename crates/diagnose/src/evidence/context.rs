@@ -33,14 +33,12 @@ pub(super) type Signal = Vec<Vec<f64>>;
 impl<'a> Context<'a> {
     pub(super) fn new(base: &'a System, stretches: &'a [Stretch], is_fitted: &[bool]) -> Self {
         let pairs: Vec<(&[f64], &[f64])> = stretches.iter().map(|s| (&s.v[..], &s.y[..])).collect();
-        let knots = (0..base.borders.count()).map(Quantity::Knot);
-        let coefficients = (0..base.linear.coefficients()).map(Quantity::Coefficient);
         Self {
             base,
             stretches,
             scale: Scale::of(&base.linear, base.rule, &pairs),
             blocks: blocks(stretches, is_fitted),
-            coordinates: knots.chain(coefficients).collect(),
+            coordinates: Quantity::coordinates(base),
         }
     }
 

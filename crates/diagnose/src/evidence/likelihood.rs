@@ -2,8 +2,9 @@
 
 use super::context::Context;
 use super::refine::Refined;
+use crate::price::price;
 use switchback_identify::record::{Criterion, Effort, Sensitivities, Stretch, fit};
-use switchback_model::system::{LAWS, Quantity, System, Term};
+use switchback_model::system::{Quantity, System, Term};
 
 /// What a fit with an effect gains beside the fit without.
 #[derive(Debug, Clone)]
@@ -19,12 +20,6 @@ pub(super) struct Likelihood {
     pub(super) closed: [f64; 2],
     /// What the effect gains over the extended BIC's price of its parameters.
     pub(super) over_price: f64,
-}
-
-/// The free parameters of a term.
-pub(super) fn of_term(system: &System, term: usize) -> Vec<Quantity> {
-    let parameters = system.terms[term].law.parameters().iter().enumerate();
-    parameters.filter(|(_, p)| p.free).map(|(k, _)| Quantity::Value(term, k)).collect()
 }
 
 /// Iterations of each fit.
@@ -108,7 +103,7 @@ impl Likelihoods {
         let data = Data::of(context, is_fitted);
         let base = data.fit(context, context.base, &context.coordinates);
         let compared = |effect: &'static str, (fitted, parameters): (Fitted, usize)| {
-            let price = parameters as f64 * (libm::log(data.samples) + 2.0 * libm::log(LAWS.len() as f64));
+            let price = price(data.samples as usize, parameters);
             let gain = 0.5 * (base.log_variance - fitted.log_variance);
             let ratio = |k: usize| {
                 libm::log((base.energy[k] + f64::MIN_POSITIVE) / (fitted.energy[k] + f64::MIN_POSITIVE))
@@ -138,18 +133,12 @@ impl Likelihoods {
         all.sort_by(|x, y| y.fitted.total_cmp(&x.fitted));
         let larger = base.system.linear.larger().into_iter().map(|linear| {
             let system = System { linear, ..base.system.clone() };
-            let free = coordinates(&system);
+            let free = Quantity::coordinates(&system);
             (system, free)
         });
         let order = best(larger.collect()).map_or(0.0, |fitted| compared("order", fitted).fitted);
         Self { all, order }
     }
-}
-
-/// Borders and linear part.
-pub(super) fn coordinates(system: &System) -> Vec<Quantity> {
-    let knots = (0..system.borders.count()).map(Quantity::Knot);
-    knots.chain((0..system.linear.coefficients()).map(Quantity::Coefficient)).collect()
 }
 
 /// Systems from which an effect is fitted, and their free quantities.
@@ -163,7 +152,7 @@ fn starts<'a>(
     let with = |term: &Term| {
         let mut with = base.clone();
         with.terms.push(term.clone());
-        let free = [&own[..], &of_term(&with, with.terms.len() - 1)].concat();
+        let free = [&own[..], &Quantity::of_term(&with, with.terms.len() - 1)].concat();
         (with, free)
     };
     match effect {
@@ -177,7 +166,7 @@ fn starts<'a>(
             let knots = base.borders.count() as f64 / 2.0;
             let fine = base.borders.refined(0.5 * (high - low) / (knots - 1.0).max(1.0));
             let system = System { borders: fine, ..base.clone() };
-            let free = coordinates(&system);
+            let free = Quantity::coordinates(&system);
             vec![(system, free)]
         }
         _ => terms.map(with).collect(),

@@ -1,25 +1,21 @@
 //! Spectra of errors.
 
-use realfft::RealFftPlanner;
+use crate::residuals::spectrum;
 use std::f64::consts::PI;
 
-/// Squared magnitudes of the transform of a signal, a Hann window on it, at `k/(2n)` for `k = 1…n`.
+/// Squared magnitudes of the transform of a signal freed of its mean, with or without a Hann window, at frequencies `πk/n` for `k = 1…n`.
 pub(super) fn power(x: &[f64], is_windowed: bool) -> Vec<f64> {
-    let count = x.len();
-    let mean = x.iter().sum::<f64>() / count.max(1) as f64;
-    let transform = RealFftPlanner::<f64>::new().plan_fft_forward(2 * count.max(1));
-    let mut padded = transform.make_input_vec();
-    for (t, (p, x)) in padded.iter_mut().zip(x).enumerate() {
-        let window =
-            if is_windowed { 0.5 - 0.5 * libm::cos(2.0 * PI * t as f64 / count as f64) } else { 1.0 };
-        *p = (x - mean) * window;
-    }
-    let mut out = transform.make_output_vec();
-    transform.process(&mut padded, &mut out).expect("the lengths are the plan's");
-    out.iter().skip(1).map(|x| x.norm_sqr()).collect()
+    let count = x.len().max(1);
+    let mean = x.iter().sum::<f64>() / count as f64;
+    let window = |t: usize| match is_windowed {
+        true => 0.5 - 0.5 * libm::cos(2.0 * PI * t as f64 / count as f64),
+        false => 1.0,
+    };
+    let centred: Vec<f64> = x.iter().enumerate().map(|(t, x)| (x - mean) * window(t)).collect();
+    spectrum::power(&centred, 2 * count).split_off(1)
 }
 
-/// Medians of the logarithm over a window of 41 lines.
+/// Means of the logarithm over a window of 41 lines.
 pub(super) fn level(log_power: &[f64]) -> Vec<f64> {
     const HALF: usize = 20;
     let count = log_power.len();

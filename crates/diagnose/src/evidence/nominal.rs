@@ -1,11 +1,10 @@
 //! The nominal system of a rig: identified, with border knots at the levels of a designed input.
 
-use super::likelihood::coordinates;
 use switchback_identify::free::{FreeError, InputMap, Settings, identify};
 use switchback_identify::record::{Criterion, Effort, Sensitivities, Stretch, bare_system, fit};
 use switchback_model::Record;
 use switchback_model::hysteresis::Branch;
-use switchback_model::system::{Borders, Mode, Scale, System};
+use switchback_model::system::{Borders, Mode, Quantity, Scale, System};
 
 /// Iterations of a fit.
 const EFFORT: Effort = Effort { iterations: 20, tolerance: 1e-3 };
@@ -49,7 +48,7 @@ impl<'a> Records<'a> {
     /// Fits borders and linear part by the free run's error; with the deviance of that under the criterion of the start.
     fn fit(&self, start: &System, criterion: &Criterion) -> (System, f64) {
         let scale = Scale::of(&start.linear, start.rule, &self.pairs);
-        fit(start, &coordinates(start), &self.stretches, (criterion, &scale), EFFORT)
+        fit(start, &Quantity::coordinates(start), &self.stretches, (criterion, &scale), EFFORT)
     }
 
     fn criterion(&self, system: &System) -> Criterion {

@@ -74,7 +74,7 @@ impl<'a> Filtered<'a> {
         };
         let first = tried(start.clone());
         let strength = first.3.dot(&self.error) / first.3.norm_squared().max(f64::MIN_POSITIVE);
-        let scaled = tried(set(start, 0, start.values[0] * strength));
+        let scaled = tried(start.set(0, start.values[0] * strength));
         let (mut left, mut term, mut change, mut column) = if scaled.0 < first.0 { scaled } else { first };
         for _ in 0..STEPS {
             let Some(step) = self.step(&term, &column) else { break };
@@ -100,13 +100,12 @@ impl<'a> Filtered<'a> {
 
     /// The Gauss–Newton step of the free parameters.
     fn step(&self, term: &Term, column: &DVector<f64>) -> Option<Vec<(usize, f64)>> {
-        let free: Vec<usize> =
-            term.law.parameters().iter().enumerate().filter(|(_, p)| p.free).map(|(k, _)| k).collect();
-        let steps: Vec<f64> = free.iter().map(|k| self.small(term, *k)).collect();
+        let free: Vec<usize> = term.free().collect();
+        let steps: Vec<f64> = free.iter().map(|k| term.step(*k, &self.context.scale)).collect();
         let derivatives: Vec<DVector<f64>> = free
             .iter()
             .zip(&steps)
-            .map(|(k, step)| (self.column(&set(term, *k, term.values[*k] + step)).1 - column) / *step)
+            .map(|(k, step)| (self.column(&term.set(*k, term.values[*k] + step)).1 - column) / *step)
             .collect();
         let error = &self.error - column;
         let n = free.len();
@@ -119,20 +118,6 @@ impl<'a> Filtered<'a> {
         let step = h.cholesky()?.solve(&g);
         step.iter().all(|x| x.is_finite()).then(|| free.into_iter().zip(step.iter().copied()).collect())
     }
-
-    /// A step to differentiate by: inwards at a bound.
-    fn small(&self, term: &Term, k: usize) -> f64 {
-        let sizes = term.law.starts(&self.context.scale).into_iter().map(|start| start[k].abs());
-        let step = 1e-3 * sizes.fold(term.values[k].abs(), f64::max).max(f64::MIN_POSITIVE);
-        if term.values[k] + step > term.law.parameters()[k].bounds.1 { -step } else { step }
-    }
-}
-
-fn set(term: &Term, k: usize, value: f64) -> Term {
-    let (low, high) = term.law.parameters()[k].bounds;
-    let mut out = term.clone();
-    out.values[k] = value.clamp(low, high);
-    out
 }
 
 /// The term moved by a share of a step, at most by a factor of four in what is positive.
@@ -144,7 +129,7 @@ fn moved(term: &Term, step: &[(usize, f64)], factor: f64) -> Term {
         if *k > 0 && now > 0.0 {
             next = next.clamp(0.25 * now, 4.0 * now);
         }
-        out = set(&out, *k, next);
+        out = out.set(*k, next);
     }
     out
 }

@@ -125,6 +125,12 @@ impl Setting {
     }
 }
 
+/// The standard deviation of the normal distribution with this median of absolute values.
+pub(super) fn spread(values: impl Iterator<Item = f64>) -> f64 {
+    const MEDIAN_OF_NORMAL: f64 = 0.674_489_750_196_081_7;
+    quantile(&values.map(f64::abs).collect::<Vec<_>>(), 0.5) / MEDIAN_OF_NORMAL
+}
+
 /// A sample quantile, not interpolated.
 pub(super) fn quantile(values: &[f64], level: f64) -> f64 {
     if values.is_empty() {

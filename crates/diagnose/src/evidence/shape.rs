@@ -1,7 +1,7 @@
 //! The shape of an error, whatever its cause: tails, spectrum, means and squares over travel, time, speed, rest, position, level and age.
 
 use super::lines::{level, power};
-use super::setting::{Setting, quantile};
+use super::setting::{Setting, spread};
 
 /// Where statistics are collected.
 pub(super) type Columns = Vec<(String, f64)>;
@@ -28,7 +28,7 @@ fn ln(x: f64) -> f64 {
 fn tails(z: &[f64], setting: &Setting, add: &mut dyn FnMut(&str, f64)) {
     let count = z.len() as f64;
     let sizes: Vec<f64> = z.iter().map(|x| x.abs()).collect();
-    let spread = quantile(&sizes, 0.5) / 0.6745 + 1e-9;
+    let spread = spread(z.iter().copied()) + 1e-9;
     let largest = sizes.iter().copied().fold(0.0, f64::max);
     let beyond = |k: f64| sizes.iter().filter(|x| **x > k * spread).count() as f64 / count;
     add("fourth", ln(z.iter().map(|x| x.powi(4)).sum::<f64>() / count / 3.0 + 1e-6));

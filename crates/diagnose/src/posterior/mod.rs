@@ -2,7 +2,7 @@
 //!
 //! The weights are data ([`Posterior::read`]), written by a command of the laboratory. Evaluation is plain arithmetic in a fixed order. The
 //! probabilities are a weighted geometric mean of [boosted trees](Trees), a [network](Network) and a [ranker](Ranker), raised to a power that
-//! was fitted to a population. [`Novelty`] tells how far a row lies from what the posterior was trained on, [`decide`] what is reported.
+//! was fitted to a population. [`Novelty`] is the distance of a row from the training population, [`decide`] gives the report.
 
 mod bytes;
 mod decision;

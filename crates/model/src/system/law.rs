@@ -111,4 +111,26 @@ impl Term {
         values[0] = 0.0;
         Self { law: self.law, values }
     }
+
+    /// Numbers of the parameters that are estimated.
+    pub fn free(&self) -> impl Iterator<Item = usize> + use<> {
+        self.law.parameters().iter().enumerate().filter(|(_, p)| p.free).map(|(k, _)| k)
+    }
+
+    /// The same with another value of a parameter, within its bounds.
+    #[must_use]
+    pub fn set(&self, index: usize, value: f64) -> Self {
+        let (low, high) = self.law.parameters()[index].bounds;
+        let mut out = self.clone();
+        out.values[index] = value.clamp(low, high);
+        out
+    }
+
+    /// A move of a parameter to differentiate by, inwards at its upper bound.
+    pub fn step(&self, index: usize, scale: &Scale) -> f64 {
+        let sizes = self.law.starts(scale).into_iter().map(|start| start[index].abs());
+        let size = sizes.fold(self.values[index].abs(), f64::max);
+        let step = 1e-3 * size.max(f64::MIN_POSITIVE);
+        if self.values[index] + step > self.law.parameters()[index].bounds.1 { -step } else { step }
+    }
 }

@@ -107,6 +107,22 @@ impl Quantity {
         all
     }
 
+    /// The free numbers of a system: borders, linear part, the parameters of its terms.
+    pub fn coordinates(system: &System) -> Vec<Self> {
+        let knots = (0..system.borders.count()).map(Self::Knot);
+        let coefficients = (0..system.linear.coefficients()).map(Self::Coefficient);
+        let terms = (0..system.terms.len()).flat_map(|k| Self::of_term(system, k));
+        knots.chain(coefficients).chain(terms).collect()
+    }
+
+    /// The free parameters of a term.
+    ///
+    /// # Panics
+    /// If the system has no such term.
+    pub fn of_term(system: &System, term: usize) -> Vec<Self> {
+        system.terms[term].free().map(|k| Self::Value(term, k)).collect()
+    }
+
     /// Its value in a system.
     ///
     /// # Panics
@@ -179,10 +195,7 @@ impl Quantity {
                 modes[at] = Mode::Pair { frequency, damping: value.clamp(1e-4, 0.9999) };
                 out.linear = system.linear.with_modes(&modes);
             }
-            Self::Value(term, index) => {
-                let (low, high) = out.terms[term].law.parameters()[index].bounds;
-                out.terms[term].values[index] = value.clamp(low, high);
-            }
+            Self::Value(term, index) => out.terms[term] = system.terms[term].set(index, value),
             Self::Knot(knot) => *out.borders.value_mut(knot) = value,
             Self::Coefficient(k) => out.linear.set_coefficient(k, value),
         }
@@ -200,14 +213,7 @@ impl Quantity {
             Self::Stiffness => SMALL * scale.output / scale.travel,
             Self::Curvature => SMALL * scale.output / (scale.travel * scale.travel),
             Self::TimeConstant(_) | Self::Frequency(_) | Self::Damping(_) => SMALL * self.value(system).abs(),
-            Self::Value(term, index) => {
-                let term = &system.terms[term];
-                let sizes = term.law.starts(scale).into_iter().map(|start| start[index].abs());
-                let size = sizes.fold(term.values[index].abs(), f64::max);
-                let step = 1e-3 * size.max(f64::MIN_POSITIVE);
-                // Inwards at a bound.
-                if term.values[index] + step > term.law.parameters()[index].bounds.1 { -step } else { step }
-            }
+            Self::Value(term, index) => system.terms[term].step(index, scale),
             Self::Coefficient(_) => 1e-6,
         }
     }
