@@ -10,6 +10,8 @@ pub mod shell;
 pub mod signals;
 pub mod stream;
 pub mod table;
+#[cfg(all(test, any(feature = "mcap", feature = "parquet")))]
+mod testing;
 mod text_file;
 mod text_kind;
 mod text_pieces;

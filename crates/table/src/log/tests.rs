@@ -1,8 +1,7 @@
-use crate::signals::{ColumnNames, InputForm, Measured, Request, Sampling};
 use crate::table::TableError;
+use crate::testing::File;
 use mcap::records::MessageHeader;
 use std::collections::BTreeMap;
-use std::path::PathBuf;
 
 const JOINT_STATE: &str = "std_msgs/Header header\nstring[] name\nfloat64[] position\nfloat64[] velocity\nfloat64[] effort\n\
     ================================================================================\nMSG: std_msgs/Header\nbuiltin_interfaces/Time stamp\nstring frame_id\n\
@@ -99,37 +98,11 @@ fn log() -> Vec<u8> {
     bytes.into_inner()
 }
 
-/// A file of its own, removed at the end.
-struct File(PathBuf);
-
-impl File {
-    fn of(name: &str, bytes: &[u8]) -> Self {
-        let path = std::env::temp_dir().join(format!("switchback-{}-{name}.mcap", std::process::id()));
-        std::fs::write(&path, bytes).expect("a writable temporary folder");
-        Self(path)
-    }
-}
-
-impl Drop for File {
-    fn drop(&mut self) {
-        let _ = std::fs::remove_file(&self.0);
-    }
-}
-
-fn read(file: &File, [input, output]: [Option<&str>; 2]) -> Result<Measured, Vec<TableError>> {
-    let named = |name: Option<&str>| name.map(str::to_owned);
-    let names = ColumnNames { time: None, input: named(input), output: named(output) };
-    let input_form = InputForm::CommandLine("switchback init log.mcap".to_owned());
-    let request =
-        Request { names: &names, sampling: Sampling::default(), input_form: &input_form, needs_output: true };
-    Measured::read(&file.0, request)
-}
-
 #[test]
 fn topics_are_joined_on_the_stamps_of_their_headers() {
-    let file = File::of("joined", &log());
+    let file = File::of("joined.mcap", &log());
     for names in [[Some("/cmd.position[2]"), Some("/state.position[2]")], [None, None]] {
-        let measured = read(&file, names).expect("a good log");
+        let measured = file.measured(names).expect("a good log");
         assert!((measured.sample_time - 0.005).abs() < 1e-7, "{}", measured.sample_time);
         assert_eq!(
             [measured.input().label(), measured.output().unwrap().label()],
@@ -151,22 +124,22 @@ fn topics_are_joined_on_the_stamps_of_their_headers() {
 #[test]
 fn a_log_that_breaks_off_is_used_up_to_there() {
     let bytes = log();
-    let file = File::of("broken", &bytes[..bytes.len() / 2]);
-    let measured = read(&file, [Some("/cmd.position[2]"), Some("/state.position[2]")]).expect("half a log");
+    let file = File::of("broken.mcap", &bytes[..bytes.len() / 2]);
+    let measured = file.measured([Some("/cmd.position[2]"), Some("/state.position[2]")]).expect("half a log");
     assert!((ROWS / 4..ROWS).contains(&measured.v.len()), "{}", measured.v.len());
     assert!(
         measured.table.notes.iter().any(|note| note.contains("what precedes is used")),
         "{:?}",
         measured.table.notes
     );
-    let file = File::of("torn", &bytes[..40]);
-    assert!(read(&file, [None, None]).is_err());
+    let file = File::of("torn.mcap", &bytes[..40]);
+    assert!(file.measured([None, None]).is_err());
 }
 
 #[test]
 fn columns_are_listed_where_they_are_in_doubt() {
-    let file = File::of("listed", &log());
-    let errors = read(&file, [Some("/cmd.effort[0]"), None]).expect_err("there is no such column");
+    let file = File::of("listed.mcap", &log());
+    let errors = file.measured([Some("/cmd.effort[0]"), None]).expect_err("there is no such column");
     let Some(TableError::Data(error)) = errors.first() else { panic!("{errors:?}") };
     let said = error.to_string();
     for column in ["`/cmd time`, times", "`/cmd.position[2]`", "`/state.position[0]`"] {
@@ -208,7 +181,7 @@ fn what_is_written_is_read_back() {
         log_bytes(&[first.clone(), topic("/b", 50.0)]).expect("a log"),
         "the same bytes every time"
     );
-    let file = File::of("written", &bytes);
+    let file = File::of("written.mcap", &bytes);
     let table = crate::log::read(&file.0, &|_| None).expect("a log");
     let column = |name: &str| &table.columns.iter().find(|column| column.name == name).expect(name).values;
     for field in &first.fields {
@@ -218,6 +191,6 @@ fn what_is_written_is_read_back() {
         assert!(column(&format!("/a.{}", field.name)).iter().zip(&field.values).all(same), "{}", field.name);
     }
     assert!(column("/a time").iter().enumerate().all(|(k, t)| (t - 0.005 * k as f64).abs() < 1e-12));
-    let measured = read(&file, [Some("/b.input"), Some("/b.nominal")]).expect("a good log");
+    let measured = file.measured([Some("/b.input"), Some("/b.nominal")]).expect("a good log");
     assert!((measured.sample_time - 0.005).abs() < 1e-9 && (measured.v[9] - 50.0 - command(9)).abs() < 1e-12);
 }

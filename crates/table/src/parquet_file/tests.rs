@@ -1,11 +1,10 @@
-use crate::signals::{ColumnNames, InputForm, Measured, Request, Sampling};
 use crate::table::{Table, TableError};
+use crate::testing::File;
 use parquet::basic::{Compression, ZstdLevel};
 use parquet::data_type::{ByteArray, ByteArrayType, DoubleType, FloatType, Int64Type};
 use parquet::file::properties::WriterProperties;
 use parquet::file::writer::{SerializedFileWriter, SerializedRowGroupWriter};
 use parquet::schema::parser::parse_message_type;
-use std::path::PathBuf;
 use std::sync::Arc;
 
 const ROWS: usize = 1200;
@@ -86,40 +85,14 @@ fn frame() -> Vec<u8> {
     })
 }
 
-/// A file of its own, removed at the end.
-struct File(PathBuf);
-
-impl File {
-    fn of(name: &str, bytes: &[u8]) -> Self {
-        let path = std::env::temp_dir().join(format!("switchback-{}-{name}.parquet", std::process::id()));
-        std::fs::write(&path, bytes).expect("a writable temporary folder");
-        Self(path)
-    }
-
-    fn table(&self) -> Result<Table, TableError> {
-        Table::read(&self.0, 2)
-    }
-}
-
-impl Drop for File {
-    fn drop(&mut self) {
-        let _ = std::fs::remove_file(&self.0);
-    }
-}
-
-fn read(file: &File, [input, output]: [Option<&str>; 2]) -> Result<Measured, Vec<TableError>> {
-    let named = |name: Option<&str>| name.map(str::to_owned);
-    let names = ColumnNames { time: None, input: named(input), output: named(output) };
-    let input_form = InputForm::CommandLine("switchback init a.parquet".to_owned());
-    let request =
-        Request { names: &names, sampling: Sampling::default(), input_form: &input_form, needs_output: true };
-    Measured::read(&file.0, request)
+fn table(file: &File) -> Result<Table, TableError> {
+    Table::read(&file.0, 2)
 }
 
 #[test]
 fn episodes_are_columns_of_lists() {
-    let file = File::of("episodes", &episodes());
-    let table = file.table().expect("a good file");
+    let file = File::of("episodes.parquet", &episodes());
+    let table = table(&file).expect("a good file");
     let names: Vec<&str> = table.columns.iter().map(|column| column.name.as_str()).collect();
     let lists = [
         "action[0]",
@@ -132,17 +105,17 @@ fn episodes_are_columns_of_lists() {
     assert_eq!(names, [&lists[..], &["timestamp", "frame_index", "episode_index"]].concat());
     assert!(table.columns[1].values.iter().enumerate().all(|(k, x)| (x - command(k)).abs() < 1e-5));
     assert_eq!(table.columns[6].values[3], 0.06, "the decimal that was meant");
-    let measured = read(&file, [Some("action[1]"), Some("observation.state[1]")]).expect("a good file");
+    let measured = file.measured([Some("action[1]"), Some("observation.state[1]")]).expect("a good file");
     assert!((measured.sample_time - 0.02).abs() < 1e-6, "{}", measured.sample_time);
 }
 
 #[test]
 fn frames_keep_their_stamps() {
-    let file = File::of("frame", &frame());
-    let table = file.table().expect("a good file");
+    let file = File::of("frame.parquet", &frame());
+    let table = table(&file).expect("a good file");
     assert_eq!(table.columns[0].stamps[1], "1766147454.253218075");
     assert!(table.columns[2].values[9].is_nan() && table.columns[2].values[10] == 0.5 * command(10));
-    let measured = read(&file, [None, None]).expect("a good file");
+    let measured = file.measured([None, None]).expect("a good file");
     assert_eq!([measured.input().label(), measured.output().unwrap().label()], ["travel", "force"]);
     assert!((measured.sample_time - 0.02).abs() < 1e-9);
 }
@@ -150,7 +123,7 @@ fn frames_keep_their_stamps() {
 #[test]
 fn a_file_that_is_cut_off_or_changed_is_refused_or_read_up_to_there() {
     let bytes = episodes();
-    let error = File::of("cut", &bytes[..bytes.len() / 2]).table().expect_err("it is cut off");
+    let error = table(&File::of("cut.parquet", &bytes[..bytes.len() / 2])).expect_err("it is cut off");
     assert!(format!("{error:?}").contains("cut off"), "{error:?}");
     // A small generator: no bytes may end the program.
     let mut state = 7_u64;
@@ -168,7 +141,7 @@ fn a_file_that_is_cut_off_or_changed_is_refused_or_read_up_to_there() {
                 let at = from + next(whole.len() - from);
                 changed[at] ^= 1 << next(8);
             }
-            read += usize::from(File::of("changed", &changed).table().is_ok());
+            read += usize::from(table(&File::of("changed.parquet", &changed)).is_ok());
         }
     }
     assert!(read > 100, "{read}");
