@@ -1,15 +1,9 @@
 //! The control variate on the leaf-spring study: it agrees with the plain figures, and is worth what it promises.
 
-use switchback_study::consistency::{Progress, run};
+use crate::common::Silent;
+use switchback_study::consistency::run;
 use switchback_study::results::{Group, Parameter, Results};
 use switchback_study::scenario::Scenario;
-
-struct Silent;
-
-impl Progress for Silent {
-    fn planned(&self, _: u64) {}
-    fn advanced(&self, _: u64) {}
-}
 
 /// The committed leaf-spring study with fewer replicates.
 fn leaf_spring(replicates: usize) -> Results {

@@ -1,17 +1,11 @@
 //! The engine that simulates every cell and solves dense least squares, against the one that superposes.
 
+use crate::common::Silent;
 use proptest::prelude::*;
 use std::path::Path;
-use switchback_study::consistency::{Progress, run};
+use switchback_study::consistency::run;
 use switchback_study::results::{Results, to_json};
 use switchback_study::scenario::{Engine, Scenario};
-
-struct Silent;
-
-impl Progress for Silent {
-    fn planned(&self, _: u64) {}
-    fn advanced(&self, _: u64) {}
-}
 
 /// Runs a scenario on both engines and compares every figure.
 fn both_agree(scenario: &Scenario) {

@@ -1,9 +1,10 @@
 //! The superposed engine against simulating every cell, sample by sample.
 
+use crate::common::Silent;
 use switchback_identify::method::Method;
 use switchback_identify::pulse::{PulseData, PulseMethod, StepMean};
 use switchback_model::Record;
-use switchback_study::consistency::{Progress, ReplayedExperiment, records, replay, run};
+use switchback_study::consistency::{ReplayedExperiment, records, replay, run};
 use switchback_study::results::{Cell, Results, to_json};
 use switchback_study::scenario::{Coupling, Scenario};
 
@@ -84,13 +85,6 @@ fn superposition_gives_the_estimates_of_the_simulated_records() {
         }
         assert!(cells.next().is_none());
     }
-}
-
-struct Silent;
-
-impl Progress for Silent {
-    fn planned(&self, _: u64) {}
-    fn advanced(&self, _: u64) {}
 }
 
 /// Runs [`SCENARIO`] with `header` in place of its number of replicates.

@@ -1,19 +1,13 @@
 //! Every method at every order that a scenario may have, and the bytes of the small study.
 
+use crate::common::Silent;
 use crate::common::faults::files;
 use sha2::{Digest, Sha256};
 use std::path::Path;
 use switchback_identify::Method;
-use switchback_study::consistency::{Progress, run};
+use switchback_study::consistency::run;
 use switchback_study::results::Results;
 use switchback_study::scenario::{Engine, Scenario};
-
-struct Silent;
-
-impl Progress for Silent {
-    fn planned(&self, _: u64) {}
-    fn advanced(&self, _: u64) {}
-}
 
 /// All methods on a system of an order, whose poles lie between −0.3 and 0.3.
 fn study(order: usize, engine: Engine) -> Results {

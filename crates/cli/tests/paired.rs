@@ -1,6 +1,7 @@
 //! Comparisons on the same noise, against their definition on the replicates themselves and against studies run again and again.
 
-use switchback_study::consistency::{Progress, ReplayedCell, replay, run};
+use crate::common::Silent;
+use switchback_study::consistency::{ReplayedCell, replay, run};
 use switchback_study::results::{Comparison, Paired, Pairing, Results};
 use switchback_study::scenario::Scenario;
 
@@ -30,13 +31,6 @@ samples = [150, 333]
 points = [3]
 methods = ["paper-descendant", "joint", "efficient"]
 "#;
-
-struct Silent;
-
-impl Progress for Silent {
-    fn planned(&self, _: u64) {}
-    fn advanced(&self, _: u64) {}
-}
 
 fn scenario(change: (&str, &str)) -> Scenario {
     Scenario::parse("paired.toml", &SCENARIO.replacen(change.0, change.1, 1)).expect("a valid scenario")

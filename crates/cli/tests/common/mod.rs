@@ -7,7 +7,16 @@ use assert_cmd::Command;
 use std::fs;
 use std::path::{Path, PathBuf};
 use switchback_io::input::gzip;
+use switchback_study::consistency::Progress;
 use tempfile::TempDir;
+
+/// A study whose progress nobody follows.
+pub(crate) struct Silent;
+
+impl Progress for Silent {
+    fn planned(&self, _: u64) {}
+    fn advanced(&self, _: u64) {}
+}
 
 pub(crate) const RIG: &str = r#"name = "small"
 sample_time = 0.01

@@ -1,20 +1,14 @@
 //! How seldom two versions without a difference give an alarm, and how often one is found that matters.
 
+use crate::common::Silent;
 use rayon::prelude::*;
 use std::sync::Arc;
 use switchback_identify::Method;
 use switchback_study::ForeignName;
-use switchback_study::consistency::{CellErrors, Progress, method_errors};
+use switchback_study::consistency::{CellErrors, method_errors};
 use switchback_study::foreign::{Design, Estimates, ForeignError, ForeignEstimator, Records};
 use switchback_study::scenario::{ForeignMethod, Scenario};
 use switchback_versions::{Comparison, Limits, OwnMethod, Verdict};
-
-struct Silent;
-
-impl Progress for Silent {
-    fn planned(&self, _: u64) {}
-    fn advanced(&self, _: u64) {}
-}
 
 const REPLICATES: u32 = 200;
 

@@ -1,20 +1,14 @@
 //! Control variates for methods of others: they agree with the plain figures and with those of theory, and are worth what they promise.
 
+use crate::common::Silent;
 use std::sync::Arc;
 use switchback_identify::Method;
 use switchback_study::ForeignName;
-use switchback_study::consistency::{Ended, Progress, Study};
+use switchback_study::consistency::{Ended, Study};
 use switchback_study::foreign::{Design, Estimates, ForeignError, ForeignEstimator, Records};
 use switchback_study::results::{Cell, Parameter, Results};
 use switchback_study::scenario::{ForeignMethod, Scenario};
 use switchback_versions::OwnMethod;
-
-struct Silent;
-
-impl Progress for Silent {
-    fn planned(&self, _: u64) {}
-    fn advanced(&self, _: u64) {}
-}
 
 const SCENARIO: &str = r#"study = "consistency"
 question = "Is it consistent?"

@@ -1,19 +1,13 @@
 //! What a study costs that asks an estimator which does nothing: what asking others costs is held against it by `crates/python/tests/method_overhead.py`.
 #![cfg(target_os = "linux")]
 
+use crate::common::Silent;
 use std::fs;
 use std::sync::Arc;
 use switchback_study::ForeignName;
-use switchback_study::consistency::{Ended, Progress, Study};
+use switchback_study::consistency::{Ended, Study};
 use switchback_study::foreign::{Design, Estimates, ForeignError, ForeignEstimator, Records};
 use switchback_study::scenario::{ForeignMethod, Scenario};
-
-struct Silent;
-
-impl Progress for Silent {
-    fn planned(&self, _: u64) {}
-    fn advanced(&self, _: u64) {}
-}
 
 const SCENARIO: &str = r#"study = "consistency"
 question = "What does asking cost?"
