@@ -170,7 +170,7 @@ impl Comparison {
         self.all(measure).max_by(|(.., x), (.., y)| nearness(*x).total_cmp(&nearness(*y)))
     }
 
-    /// The verdict on a measure: an alarm before all, then an improvement, then what cannot be told.
+    /// The verdict on a measure: an alarm before an improvement, both before an undecided difference.
     pub fn verdict_on(&self, measure: Measure) -> Verdict {
         self.all(measure).map(|(.., judged)| judged.verdict).max().unwrap_or(Verdict::Undecided)
     }

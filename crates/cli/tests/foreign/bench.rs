@@ -151,7 +151,7 @@ fn what_cannot_be_compared_is_bad_input_and_changes_nothing() {
         (STUDY, &["joint", "efficient", "--history", "new.jsonl"], "--label"),
         (STUDY, &["joint", "efficient", "--history", "new.jsonl", "--label", "a\nb"], "--label"),
         (STUDY, &history, "history.jsonl:1: this is no entry"),
-        ("study = \"blind\"", &["joint", "efficient"], "study.toml"),
+        ("study = \"blind\"", &["joint", "efficient"], "examination of the diagnosis"),
     ] {
         let output = bench(&folder, text, arguments);
         assert_eq!(output.status.code(), Some(2), "{arguments:?}: {}", words(&output));

@@ -54,6 +54,7 @@ pub(super) fn of_json(value: &Value) -> Option<&'static str> {
         ("switchback/rig-list/", "a list of effects"),
         ("switchback/design/", "a plan of experiments"),
         ("switchback/compare/", "a comparison"),
+        ("switchback/bench/", "a comparison of two versions"),
         ("switchback/power/", "the power of some records"),
         ("switchback/verdict/", "a fitted verdict"),
         ("switchback/plant/", "what was planted into records"),

@@ -1,4 +1,4 @@
-//! Ends of intervals, counted so finely that it can be told afterwards how many intervals hold a value that is known only then.
+//! Counts of the ends of intervals, fine enough to give the share of intervals around a value that is known only afterwards.
 //!
 //! Bias-eliminated coverage is the share of the intervals that hold the mean estimate instead of the truth: whether they are as wide as the estimates
 //! scatter, whatever the bias (T. P. Morris, I. R. White, M. J. Crowther, *Statistics in Medicine* 38 (2019), 2074–2102, Table 6). The mean is known when

@@ -51,6 +51,11 @@ fn take_study(document: &mut DeTable<'_>) -> Result<(), Fault> {
     };
     match study.get_ref().as_str() {
         Some("consistency") => Ok(()),
+        Some("blind" | "field") => Err(Fault::new(
+            study.span(),
+            "this is an examination of the diagnosis, which has no estimators",
+            "name a scenario with study = \"consistency\"",
+        )),
         _ => Err(Fault::new(study.span(), "there is no such study", remedy)),
     }
 }
