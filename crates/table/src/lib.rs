@@ -11,7 +11,7 @@ pub mod signals;
 pub mod stream;
 pub mod table;
 #[cfg(all(test, any(feature = "mcap", feature = "parquet")))]
-mod testing;
+mod tests;
 mod text_file;
 mod text_kind;
 mod text_pieces;

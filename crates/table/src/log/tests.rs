@@ -1,5 +1,5 @@
 use crate::table::TableError;
-use crate::testing::File;
+use crate::tests::File;
 use mcap::records::MessageHeader;
 use std::collections::BTreeMap;
 

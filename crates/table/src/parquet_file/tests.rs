@@ -1,5 +1,5 @@
 use crate::table::{Table, TableError};
-use crate::testing::File;
+use crate::tests::File;
 use parquet::basic::{Compression, ZstdLevel};
 use parquet::data_type::{ByteArray, ByteArrayType, DoubleType, FloatType, Int64Type};
 use parquet::file::properties::WriterProperties;
