@@ -10,7 +10,7 @@ use switchback_identify::simulation::{NoiseMoments, superpose};
 use switchback_model::linear::{LinearSystem, NoiseMemory, autocovariance};
 
 /// Step of a central difference, in standard deviations of the direction moved along.
-const STEP: f64 = 0.02;
+const STEP: f64 = 0.1;
 
 /// The statistics of an experiment as one vector: sums, then products.
 fn vector(statistics: &GroupedStatistics) -> Vec<f64> {
@@ -68,17 +68,34 @@ fn covariance(setup: &Setup, k: usize, sigma: f64, samples: usize) -> DMatrix<f6
     covariance
 }
 
+/// Directions `d_j` with `C = Σ d_j d_jᵀ`: of the correlations, so that the eigenvalues of statistics of small variance are as exact as the others.
+fn directions(covariance: &DMatrix<f64>) -> Vec<Vec<f64>> {
+    let sd = covariance.diagonal().map(f64::sqrt);
+    let correlation = DMatrix::from_fn(sd.len(), sd.len(), |i, j| {
+        if sd[i] * sd[j] > 0.0 { covariance[(i, j)] / (sd[i] * sd[j]) } else { 0.0 }
+    });
+    let SymmetricEigen { eigenvalues, eigenvectors } = correlation.symmetric_eigen();
+    let largest = eigenvalues.max();
+    let all = eigenvalues.iter().enumerate().filter(|(_, value)| **value > 1e-14 * largest);
+    all.map(|(j, value)| {
+        (eigenvectors.column(j) * value.sqrt()).component_mul(&sd).iter().copied().collect()
+    })
+    .collect()
+}
+
 fn estimate(method: PulseMethod<'_>) -> Vec<f64> {
     method.fit().expect("excited").parameters().map(|x| x.value).collect()
 }
 
-/// `½ d²g/dε²` and `(dg/dε)²` summed over directions, by differences of fourth order.
+/// `½ d²g/dε²` and `(dg/dε)²` summed over directions, by differences of sixth order: so wide a step leaves rounding far below them.
 fn add_differences(sums: &mut [Vec<f64>; 2], at: impl Fn(f64) -> Vec<f64>) {
-    let [far_back, back, here, ahead, far_ahead] = [-2.0, -1.0, 0.0, 1.0, 2.0].map(|times| at(times * STEP));
+    let here = at(0.0);
+    let sides = [1.0, 2.0, 3.0].map(|times| [at(times * STEP), at(-times * STEP)]);
     for p in 0..here.len() {
-        let curve = |x: &[f64], y: &[f64]| x[p] - 2.0 * here[p] + y[p];
-        let second = (16.0 * curve(&back, &ahead) - curve(&far_back, &far_ahead)) / (12.0 * STEP * STEP);
-        let first = (8.0 * (ahead[p] - back[p]) - (far_ahead[p] - far_back[p])) / (12.0 * STEP);
+        let curve = |k: usize| sides[k][0][p] - 2.0 * here[p] + sides[k][1][p];
+        let slope = |k: usize| sides[k][0][p] - sides[k][1][p];
+        let second = (270.0 * curve(0) - 27.0 * curve(1) + 2.0 * curve(2)) / (180.0 * STEP * STEP);
+        let first = (45.0 * slope(0) - 9.0 * slope(1) + slope(2)) / (60.0 * STEP);
         sums[0][p] += 0.5 * second;
         sums[1][p] += first * first;
     }
@@ -111,16 +128,7 @@ proptest! {
         let data = [0, 1].map(|k| superpose(&setup.designs[k], &setup.responses[k], sigma, &moments));
         let steps = [0, 1].map(|k| setup.step(k, sigma, 0.0));
         let memory = NoiseMemory::of(setup.system.a());
-        let directions = [0, 1].map(|k| {
-            let SymmetricEigen { eigenvalues, eigenvectors } = covariance(&setup, k, sigma, samples).symmetric_eigen();
-            let largest = eigenvalues.max();
-            eigenvalues
-                .iter()
-                .enumerate()
-                .filter(|(_, value)| **value > 1e-14 * largest)
-                .map(|(j, value)| (eigenvectors.column(j) * value.sqrt()).iter().copied().collect::<Vec<f64>>())
-                .collect::<Vec<_>>()
-        });
+        let directions = [0, 1].map(|k| directions(&covariance(&setup, k, sigma, samples)));
         for m in 0..4 {
             let both = [&data[0], &data[1]];
             let (method, experiments) = methods(&both, steps)[m];
