@@ -77,10 +77,8 @@ fn directions(covariance: &DMatrix<f64>) -> Vec<Vec<f64>> {
     let SymmetricEigen { eigenvalues, eigenvectors } = correlation.symmetric_eigen();
     let largest = eigenvalues.max();
     let all = eigenvalues.iter().enumerate().filter(|(_, value)| **value > 1e-14 * largest);
-    all.map(|(j, value)| {
-        (eigenvectors.column(j) * value.sqrt()).component_mul(&sd).iter().copied().collect()
-    })
-    .collect()
+    all.map(|(j, value)| (eigenvectors.column(j) * value.sqrt()).component_mul(&sd).iter().copied().collect())
+        .collect()
 }
 
 fn estimate(method: PulseMethod<'_>) -> Vec<f64> {
