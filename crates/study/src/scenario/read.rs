@@ -45,7 +45,7 @@ fn checked(name: String, text: &str) -> Result<Scenario, Fault> {
 
 /// Takes `study` out of the document. It decides which keys are right, so it is judged before all of them.
 fn take_study(document: &mut DeTable<'_>) -> Result<(), Fault> {
-    let remedy = "write study = \"consistency\" or study = \"blind\"";
+    let remedy = "write study = \"consistency\", or study = \"blind\" or \"field\" for an examination";
     let Some(study) = take(document, "study") else {
         return Err(Fault::new(0..0, "the scenario has no `study`", remedy));
     };
