@@ -53,10 +53,12 @@ fn yule_walker(covariances: &[f64]) -> Vec<(Vec<f64>, f64)> {
 
 /// `D(q⁻¹)x` of a signal that was zero before, with `D = 1 + d₁q⁻¹ + …`.
 pub fn whitened(mut x: Vec<f64>, whitening: &[f64]) -> Vec<f64> {
-    for t in (1..x.len()).rev() {
-        let past = whitening.iter().zip(x[..t].iter().rev());
-        x[t] += past.map(|(d, x)| d * x).sum::<f64>();
+    // Lag by lag: every sample's sum has the order of the lags, and samples are summed beside each other.
+    let mut past = vec![0.0; x.len()];
+    for (lag, d) in (1..).zip(whitening).take_while(|(lag, _)| *lag < x.len()) {
+        past[lag..].iter_mut().zip(&x).for_each(|(sum, x)| *sum += d * x);
     }
+    x.iter_mut().zip(past).for_each(|(x, past)| *x += past);
     x
 }
 

@@ -183,9 +183,7 @@ pub(super) fn each_batch(
             let present = &mut present[..p];
             present.fill(0.0);
             for (i, a) in theta.a.iter().enumerate() {
-                for (now, before) in present.iter_mut().zip(earlier(i)) {
-                    *now -= a * before;
-                }
+                add_scaled(present, -a, earlier(i));
                 present[i] -= before(now - 1 - i);
             }
             for (i, b) in theta.b.iter().enumerate() {
@@ -200,9 +198,7 @@ pub(super) fn each_batch(
                 let out = &mut filtered.as_mut_slice()[p * s..p * (s + 1)];
                 out.copy_from_slice(present);
                 for (i, d) in whitening.iter().enumerate() {
-                    for (out, before) in out.iter_mut().zip(earlier(i)) {
-                        *out += d * before;
-                    }
+                    add_scaled(out, *d, earlier(i));
                 }
             }
         }
@@ -215,6 +211,17 @@ pub(super) fn each_batch(
         }
         t += count;
     }
+}
+
+/// `y + a·x`, four at a time: written out, since a loop of unknown length is not made of vector instructions.
+#[inline(always)]
+fn add_scaled(y: &mut [f64], a: f64, x: &[f64]) {
+    let (fours, rest) = y.as_chunks_mut::<4>();
+    let (of_fours, of_rest) = x.as_chunks::<4>();
+    for (y, x) in fours.iter_mut().zip(of_fours) {
+        *y = [y[0] + a * x[0], y[1] + a * x[1], y[2] + a * x[2], y[3] + a * x[3]];
+    }
+    rest.iter_mut().zip(of_rest).for_each(|(y, x)| *y += a * x);
 }
 
 /// Weight of the penalty on rough curves, as a fraction of the output's energy: decides only what the data leave open.

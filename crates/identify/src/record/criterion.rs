@@ -41,6 +41,11 @@ impl Criterion {
         if x > TURN { TURN / x } else { 1.0 }
     }
 
+    /// The filtered error as far as it counts by its square: `e` drawn in to `±kσ`, half the derivative of `σ²ρ(e/σ)`.
+    pub(super) fn drawn_in(&self, e: f64) -> f64 {
+        e.clamp(-TURN * self.sd, TURN * self.sd)
+    }
+
     /// `ρ(e/σ)`.
     pub(super) fn loss(&self, e: f64) -> f64 {
         let x = (e / self.sd).abs();

@@ -63,7 +63,7 @@ pub fn fit(
     (system, now)
 }
 
-fn moved(system: &System, quantities: &[Quantity], step: &DVector<f64>) -> System {
+pub(super) fn moved(system: &System, quantities: &[Quantity], step: &DVector<f64>) -> System {
     // Values are read before any is set: a set of one may change another.
     let values: Vec<f64> = quantities.iter().map(|q| q.value(system)).collect();
     let pairs = quantities.iter().zip(values).zip(step.iter());

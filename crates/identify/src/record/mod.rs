@@ -8,12 +8,14 @@
 //! begins is unknown: its traces are projected out.
 
 mod bare;
+mod chord;
 mod criterion;
 mod fit;
 mod sensitivities;
 mod stretch;
 
 pub use bare::bare_system;
+pub use chord::Chord;
 pub use criterion::Criterion;
 pub use fit::{Effort, fit};
 pub use sensitivities::{Sensitivities, filter_and_project};

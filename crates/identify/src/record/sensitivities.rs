@@ -3,7 +3,7 @@
 use super::criterion::Criterion;
 use super::stretch::Stretch;
 use nalgebra::{DMatrix, DVector};
-use switchback_model::system::{Quantity, Scale, System};
+use switchback_model::system::{Path, Quantity, Scale, System};
 
 /// `H = ΣwJᵀJ`, `g = ΣwJᵀe` and `Σρ(e)`, with `e = PD(y − ŷ)`, `J = PD ∂ŷ/∂θ` and `P` the projection off the initial states, in units of the filtered error's
 /// standard deviation.
@@ -33,24 +33,7 @@ impl Sensitivities {
         (criterion, scale): (&Criterion, &Scale),
     ) -> Self {
         let count = quantities.len();
-        let moved: Vec<(System, f64)> = quantities
-            .iter()
-            .map(|q| {
-                let step = q.step(system, scale);
-                (q.set(system, q.value(system) + step), step)
-            })
-            .collect();
-        let columns = |stretch: &Stretch, path: &_, run: &[f64]| -> Vec<Vec<f64>> {
-            let column = |(quantity, (moved, step)): (&Quantity, &(System, f64))| {
-                let other = if quantity.moves_the_path() {
-                    stretch.simulate(moved)
-                } else {
-                    stretch.respond(moved, path)
-                };
-                other.iter().zip(run).map(|(o, r)| (o - r) / step).collect()
-            };
-            quantities.iter().zip(&moved).map(column).collect()
-        };
+        let differences = Differences::of(system, quantities, scale);
         let mut sums = Self {
             information: DMatrix::zeros(count, count),
             gradient: DVector::zeros(count),
@@ -60,7 +43,7 @@ impl Sensitivities {
         for stretch in stretches {
             let path = system.path(&stretch.v, stretch.span);
             let run = stretch.respond(system, &path);
-            let columns = columns(stretch, &path, &run);
+            let columns = differences.columns(stretch, &path, &run);
             sums.add(system, stretch, (&run, columns), criterion);
         }
         sums
@@ -132,8 +115,34 @@ impl Sensitivities {
     }
 }
 
+/// A system moved by small steps of some quantities.
+pub(super) struct Differences<'a>(Vec<(&'a Quantity, System, f64)>);
+
+impl<'a> Differences<'a> {
+    pub(super) fn of(system: &System, quantities: &'a [Quantity], scale: &Scale) -> Self {
+        let moved = |q: &'a Quantity| {
+            let step = q.step(system, scale);
+            (q, q.set(system, q.value(system) + step), step)
+        };
+        Self(quantities.iter().map(moved).collect())
+    }
+
+    /// Derivatives of the run on a record by each quantity, not filtered.
+    pub(super) fn columns(&self, stretch: &Stretch, path: &Path, run: &[f64]) -> Vec<Vec<f64>> {
+        let column = |(quantity, moved, step): &(&Quantity, System, f64)| {
+            let other = if quantity.moves_the_path() {
+                stretch.simulate(moved)
+            } else {
+                stretch.respond(moved, path)
+            };
+            other.iter().zip(run).map(|(o, r)| (o - r) / step).collect()
+        };
+        self.0.iter().map(column).collect()
+    }
+}
+
 /// Errors that are no numbers count as enormous ones.
-fn errors(stretch: &Stretch, run: &[f64]) -> Vec<f64> {
+pub(super) fn errors(stretch: &Stretch, run: &[f64]) -> Vec<f64> {
     stretch.y.iter().zip(run).map(|(y, r)| if r.is_finite() { y - r } else { 1e150 }).collect()
 }
 

@@ -21,11 +21,29 @@ struct Table {
 
 impl Table {
     fn at(&self, v: f64) -> f64 {
-        let Self { knots, values } = self;
+        self.value(self.place(v))
+    }
+
+    /// The knot to the left, and the share of its cell that is passed.
+    fn place(&self, v: f64) -> (u32, f64) {
+        let knots = &self.knots;
         let left = knots.partition_point(|&k| k <= v).clamp(1, knots.len() - 1) - 1;
         let share = ((v - knots[left]) / (knots[left + 1] - knots[left])).clamp(0.0, 1.0);
-        values[left] + share * (values[left + 1] - values[left])
+        (left as u32, share)
     }
+
+    fn value(&self, (left, share): (u32, f64)) -> f64 {
+        let left = left as usize;
+        self.values[left] + share * (self.values[left + 1] - self.values[left])
+    }
+}
+
+/// Where positions lie among the knots of both borders: found once, since values at knots may change without these.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Places {
+    knots: [Vec<f64>; 2],
+    /// Of each position on either border.
+    each: Vec<[(u32, f64); 2]>,
 }
 
 impl Borders {
@@ -53,6 +71,25 @@ impl Borders {
     pub fn at(&self, v: f64) -> (f64, f64) {
         let [descending, ascending] = [self.curves[0].at(v), self.curves[1].at(v)];
         (0.5 * (ascending + descending), 0.5 * (ascending - descending))
+    }
+
+    /// Where positions lie among the knots.
+    pub(super) fn places(&self, positions: &[f64]) -> Places {
+        let each = positions.iter().map(|&v| [self.curves[0].place(v), self.curves[1].place(v)]).collect();
+        Places { knots: self.curves.each_ref().map(|c| c.knots.clone()), each }
+    }
+
+    /// `(mean, half)` at positions, the places of which are those of these knots or are found anew.
+    pub(super) fn along(&self, positions: &[f64], places: &Places) -> Vec<(f64, f64)> {
+        if self.curves.iter().zip(&places.knots).any(|(curve, knots)| curve.knots != *knots) {
+            return positions.iter().map(|&v| self.at(v)).collect();
+        }
+        let at = |[descending, ascending]: &[(u32, f64); 2]| {
+            let [descending, ascending] =
+                [self.curves[0].value(*descending), self.curves[1].value(*ascending)];
+            (0.5 * (ascending + descending), 0.5 * (ascending - descending))
+        };
+        places.each.iter().map(at).collect()
     }
 
     /// Number of knots of both.

@@ -69,6 +69,11 @@ pub trait Law: Sync + fmt::Debug {
     /// Points from which an estimate starts, one value a parameter; the strengths are such as change the output noticeably.
     fn starts(&self, scale: &Scale) -> Vec<Vec<f64>>;
 
+    /// Whether its strength moves reversals, by whole samples: no derivative says how much a finite change would gain.
+    fn moves_reversals(&self) -> bool {
+        false
+    }
+
     /// Whether values are those of this effect, not a limit at which it is another one.
     fn is_sound(&self, _values: &[f64], _scale: &Scale) -> bool {
         true
@@ -110,6 +115,11 @@ impl Term {
         let mut values = self.values.clone();
         values[0] = 0.0;
         Self { law: self.law, values }
+    }
+
+    /// Whether its strength has one sign: below zero there is no such effect.
+    pub fn is_one_sided(&self) -> bool {
+        self.law.parameters()[0].bounds.0 == 0.0
     }
 
     /// Numbers of the parameters that are estimated.

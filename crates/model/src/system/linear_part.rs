@@ -145,15 +145,30 @@ impl LinearPart {
             &late
         };
         let b = self.b();
-        let at =
-            |t: usize, i: usize| u[(t as isize - self.lag - i as isize).clamp(0, last as isize) as usize];
-        let mut x: Vec<f64> =
-            (0..u.len()).map(|t| b.iter().enumerate().map(|(i, b)| b * at(t, i)).sum()).collect();
-        for t in 0..x.len() {
+        // Before its first sample and behind its last one the input keeps its ends.
+        let mut x = vec![0.0; u.len()];
+        for (i, b) in b.iter().enumerate() {
+            let shift = self.lag + i as isize;
+            let at = |t: usize| u[(t as isize - shift).clamp(0, last as isize) as usize];
+            let from = shift.clamp(0, u.len() as isize) as usize;
+            let to = (u.len() as isize + shift.min(0)).max(from as isize) as usize;
+            (0..from).chain(to..u.len()).for_each(|t| x[t] += b * at(t));
+            if from < to {
+                let inner = &u[(from as isize - shift) as usize..];
+                x[from..to].iter_mut().zip(inner).for_each(|(x, u)| *x += b * u);
+            }
+        }
+        let order = self.a.len().min(x.len());
+        for t in 0..order {
             for (i, a) in self.a.iter().enumerate() {
                 let before = if t > i { x[t - 1 - i] } else { u[0] };
                 x[t] -= a * before;
             }
+        }
+        for t in order..x.len() {
+            let mut now = x[t];
+            self.a.iter().zip(x[..t].iter().rev()).for_each(|(a, before)| now -= a * before);
+            x[t] = now;
         }
         x
     }

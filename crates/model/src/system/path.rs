@@ -1,5 +1,6 @@
 //! The part of a simulation that neither borders nor linear part change.
 
+use super::borders::{Borders, Places};
 use super::law::Term;
 use super::motion::Motion;
 use super::signals::{Operator, Span};
@@ -10,12 +11,18 @@ use crate::reversal::ReversalRule;
 pub struct Path {
     pub(super) motion: Motion,
     pub(super) operator: Operator,
+    pub(super) places: Places,
     pub(super) span: Span,
 }
 
 impl Path {
     /// The path of an input.
-    pub(super) fn of(v: &[f64], rule: ReversalRule, terms: &[Term], span: Span) -> Self {
+    pub(super) fn of(
+        v: &[f64],
+        (borders, rule): (&Borders, ReversalRule),
+        terms: &[Term],
+        span: Span,
+    ) -> Self {
         let mut position = v.to_vec();
         for term in terms {
             term.law.position(&term.values, &mut position);
@@ -26,6 +33,7 @@ impl Path {
         for term in terms {
             term.law.operator(&term.values, &motion, span, &mut operator);
         }
-        Self { motion, operator, span }
+        let places = borders.places(&motion.position);
+        Self { motion, operator, places, span }
     }
 }

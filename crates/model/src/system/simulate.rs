@@ -50,19 +50,18 @@ impl System {
 
     /// Where the working point is.
     pub fn path(&self, v: &[f64], span: Span) -> Path {
-        Path::of(v, self.rule, &self.terms, span)
+        Path::of(v, (&self.borders, self.rule), &self.terms, span)
     }
 
     /// The output along a path, which must be that of a system with the same terms and rule. What `beside` has, one value a sample or none, is
     /// added before the sensor.
     pub fn respond(&self, path: &Path, beside: &[f64]) -> Vec<f64> {
-        let Path { motion, operator, span } = path;
-        let position = &motion.position;
-        let mut u: Vec<f64> = Vec::with_capacity(position.len());
-        for (t, &p) in position.iter().enumerate() {
-            let (mean, half) = self.borders.at(p);
-            u.push(mean + operator.z[t] * operator.width[t] * half + operator.added[t]);
-        }
+        let Path { motion, operator, places, span } = path;
+        let along = self.borders.along(&motion.position, places);
+        let point = |(t, (mean, half)): (usize, (f64, f64))| {
+            mean + operator.z[t] * operator.width[t] * half + operator.added[t]
+        };
+        let mut u: Vec<f64> = along.into_iter().enumerate().map(point).collect();
         for term in &self.terms {
             term.law.input(&term.values, motion, *span, &mut u);
         }

@@ -26,6 +26,10 @@ impl Law for Play {
         [0.003, 0.01, 0.03, 0.08, 0.2].map(|share| vec![share * scale.travel]).into()
     }
 
+    fn moves_reversals(&self) -> bool {
+        true
+    }
+
     fn is_sound(&self, values: &[f64], scale: &Scale) -> bool {
         values[0] < 0.8 * scale.travel
     }

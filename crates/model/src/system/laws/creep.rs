@@ -83,9 +83,9 @@ impl Law for SinceReversal {
         vec![vec![0.05 * scale.output, 3.0]]
     }
 
-    /// Within a sample of the reversal it is friction.
-    fn is_sound(&self, values: &[f64], _: &Scale) -> bool {
-        values[1] >= 1.0
+    /// Within a sample of the reversal it is friction, and slower than the records last a force by the time.
+    fn is_sound(&self, values: &[f64], scale: &Scale) -> bool {
+        (1.0..3.0 * scale.samples as f64).contains(&values[1])
     }
 
     fn input(&self, values: &[f64], motion: &Motion, _: Span, u: &mut [f64]) {
@@ -110,6 +110,10 @@ impl Law for AtRest {
 
     fn starts(&self, scale: &Scale) -> Vec<Vec<f64>> {
         [5.0, 40.0].map(|tau| vec![0.1 * scale.output, tau]).into()
+    }
+
+    fn is_sound(&self, values: &[f64], scale: &Scale) -> bool {
+        values[1] < 3.0 * scale.samples as f64
     }
 
     fn input(&self, values: &[f64], motion: &Motion, _: Span, u: &mut [f64]) {

@@ -1,0 +1,239 @@
+//! Fits in which the derivatives by most quantities are computed once.
+
+use super::criterion::Criterion;
+use super::fit::{Effort, moved};
+use super::sensitivities::{Differences, errors, filter_and_project};
+use super::stretch::Stretch;
+use nalgebra::{DMatrix, DVector};
+use switchback_model::system::{Quantity, Scale, System};
+
+/// Directions in which many quantities move the filtered run at one system, used for the systems near it: the chord method.
+///
+/// ```text
+/// J = PD ∂ŷ/∂θ    N × p, all records joined        S = diag ‖J_k‖
+/// (JS⁻¹)ᵀJS⁻¹ = VΛVᵀ                               Q = JS⁻¹VΛ^(−½),  QᵀQ = 1
+/// ```
+///
+/// A step of [`Chord::fit`] is that of Levenberg and Marquardt with this `J` and with fresh derivatives by a few other quantities, for which
+/// `Q` leaves a system of equations no larger than their number. Huber's function enters by errors that are drawn in (P. J. Huber, *Robust
+/// Statistics*, Wiley 1981, section 7.8). C. T. Kelley, *Iterative Methods for Linear and Nonlinear Equations*, SIAM 1995, section 5.4.
+#[derive(Debug, Clone)]
+pub struct Chord<'a> {
+    quantities: Vec<Quantity>,
+    /// `Q`.
+    basis: DMatrix<f64>,
+    /// `Λ`.
+    eigenvalues: DVector<f64>,
+    /// `S⁻¹VΛ^(−½)`: from coordinates by `Q` to quantities.
+    to_quantities: DMatrix<f64>,
+    stretches: &'a [Stretch],
+    criterion: &'a Criterion,
+    scale: &'a Scale,
+}
+
+/// Eigenvalue `Λ` below which a direction is none that the records show.
+const LEAST_EIGENVALUE: f64 = 1e-10;
+/// Damping with which a fit begins, and beyond which no step is tried.
+const DAMPING: (f64, f64) = (1e-4, 1e6);
+
+/// A system and its filtered error.
+struct Point {
+    system: System,
+    error: DVector<f64>,
+    deviance: f64,
+}
+
+impl<'a> Chord<'a> {
+    /// Derivatives at a system by quantities.
+    pub fn of(
+        system: &System,
+        quantities: &[Quantity],
+        stretches: &'a [Stretch],
+        (criterion, scale): (&'a Criterion, &'a Scale),
+    ) -> Self {
+        let jacobian = columns(system, quantities, stretches, (criterion, scale));
+        let size =
+            DVector::from_fn(quantities.len(), |k, _| jacobian.column(k).norm().max(f64::MIN_POSITIVE));
+        let mut scaled = jacobian;
+        scaled.column_iter_mut().zip(size.iter()).for_each(|(mut column, size)| column /= *size);
+        let eigen = scaled.tr_mul(&scaled).symmetric_eigen();
+        let shown: Vec<usize> =
+            (0..quantities.len()).filter(|k| eigen.eigenvalues[*k] > LEAST_EIGENVALUE).collect();
+        let eigenvalues = DVector::from_fn(shown.len(), |k, _| eigen.eigenvalues[shown[k]]);
+        let rotation = DMatrix::from_fn(quantities.len(), shown.len(), |i, k| {
+            eigen.eigenvectors[(i, shown[k])] / eigenvalues[k].sqrt()
+        });
+        let basis = &scaled * &rotation;
+        let to_quantities =
+            DMatrix::from_fn(quantities.len(), shown.len(), |i, k| rotation[(i, k)] / size[i]);
+        let quantities = quantities.to_vec();
+        Self { quantities, basis, eigenvalues, to_quantities, stretches, criterion, scale }
+    }
+
+    /// The system of least deviance near a start, with that deviance: the quantities of the chord and those of `fresh` are free, all others
+    /// are fixed.
+    pub fn fit(&self, start: &System, fresh: &[Quantity], effort: Effort) -> (System, f64) {
+        let mut now = self.point(start.clone());
+        let mut damping = DAMPING.0;
+        for _ in 0..effort.iterations {
+            let equations = self.equations(&now, fresh);
+            let before = now.deviance;
+            while damping < DAMPING.1 {
+                let next = equations
+                    .step(&self.eigenvalues, damping)
+                    .map(|(along, step)| self.moved(&now.system, (&along, &step), fresh))
+                    .filter(|next| next.is_sound(self.scale))
+                    .map(|next| self.point(next))
+                    .filter(|next| next.deviance < before);
+                if let Some(next) = next {
+                    now = next;
+                    damping = (damping * 0.2).max(1e-9);
+                    break;
+                }
+                damping *= 6.0;
+            }
+            if before - now.deviance <= effort.tolerance * before {
+                break;
+            }
+        }
+        (now.system, now.deviance)
+    }
+
+    fn moved(
+        &self,
+        system: &System,
+        (along, step): (&DVector<f64>, &DVector<f64>),
+        fresh: &[Quantity],
+    ) -> System {
+        let system = moved(system, &self.quantities, &(&self.to_quantities * along));
+        moved(&system, fresh, step)
+    }
+
+    fn point(&self, system: System) -> Point {
+        let mut error = Vec::new();
+        for stretch in self.stretches {
+            let mut own = [errors(stretch, &stretch.simulate(&system))];
+            filter_and_project(&system, stretch, &mut own, self.criterion);
+            error.append(&mut own[0]);
+        }
+        let deviance: f64 = error.iter().map(|e| self.criterion.loss(*e)).sum();
+        let deviance = if deviance.is_finite() { deviance } else { f64::INFINITY };
+        Point { system, error: DVector::from_vec(error), deviance }
+    }
+
+    fn equations(&self, point: &Point, fresh: &[Quantity]) -> Equations {
+        let columns = columns(&point.system, fresh, self.stretches, (self.criterion, self.scale));
+        let error = point.error.map(|e| self.criterion.drawn_in(e));
+        Equations {
+            along: self.basis.tr_mul(&error),
+            across: self.basis.tr_mul(&columns),
+            information: columns.tr_mul(&columns),
+            gradient: columns.tr_mul(&error),
+        }
+    }
+}
+
+/// `Qᵀe`, `QᵀC`, `CᵀC` and `Cᵀe`, with `C` the fresh derivatives.
+struct Equations {
+    along: DVector<f64>,
+    across: DMatrix<f64>,
+    information: DMatrix<f64>,
+    gradient: DVector<f64>,
+}
+
+impl Equations {
+    /// The damped step along `Q` and of the fresh quantities, with `W = Λ(Λ + λ)⁻¹`:
+    ///
+    /// ```text
+    /// (CᵀC + λ diag CᵀC − CᵀQWQᵀC) δ = Cᵀe − CᵀQWQᵀe,    z = W(Qᵀe − QᵀCδ)
+    /// ```
+    fn step(&self, eigenvalues: &DVector<f64>, damping: f64) -> Option<(DVector<f64>, DVector<f64>)> {
+        let weights = eigenvalues.map(|value| value / (value + damping));
+        let weighted = DMatrix::from_fn(self.across.nrows(), self.across.ncols(), |i, k| {
+            weights[i] * self.across[(i, k)]
+        });
+        let mut left = &self.information - self.across.tr_mul(&weighted);
+        for k in 0..left.nrows() {
+            left[(k, k)] += (damping + 1e-12) * self.information[(k, k)] + f64::MIN_POSITIVE;
+        }
+        let right = &self.gradient - weighted.tr_mul(&self.along);
+        let size = DVector::from_fn(left.nrows(), |k, _| left[(k, k)].max(f64::MIN_POSITIVE).sqrt());
+        let scaled = DMatrix::from_fn(left.nrows(), left.nrows(), |i, k| left[(i, k)] / (size[i] * size[k]));
+        let step = scaled.cholesky()?.solve(&right.component_div(&size)).component_div(&size);
+        let along = (&self.along - &self.across * &step).component_mul(&weights);
+        step.iter().chain(along.iter()).all(|x| x.is_finite()).then_some((along, step))
+    }
+}
+
+/// Filtered and projected derivatives, all records joined.
+fn columns(
+    system: &System,
+    quantities: &[Quantity],
+    stretches: &[Stretch],
+    (criterion, scale): (&Criterion, &Scale),
+) -> DMatrix<f64> {
+    let differences = Differences::of(system, quantities, scale);
+    let samples = stretches.iter().map(|s| s.v.len()).sum();
+    let mut out = DMatrix::zeros(samples, quantities.len());
+    let mut from = 0;
+    for stretch in stretches {
+        let path = system.path(&stretch.v, stretch.span);
+        let run = stretch.respond(system, &path);
+        let mut own = differences.columns(stretch, &path, &run);
+        filter_and_project(system, stretch, &mut own, criterion);
+        for (k, column) in own.iter().enumerate() {
+            out.column_mut(k).rows_mut(from, column.len()).copy_from_slice(column);
+        }
+        from += stretch.v.len();
+    }
+    out
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::fit;
+    use super::*;
+    use rand::{RngExt, SeedableRng};
+    use rand_chacha::ChaCha8Rng;
+    use rand_distr::StandardNormal;
+    use switchback_model::reversal::ReversalRule;
+    use switchback_model::system::{Borders, LAWS, LinearPart, Sensor, Term};
+
+    fn machine(play: f64) -> System {
+        let low: Vec<(f64, f64)> = [-1.1, -0.4, 0.2, 1.1].map(|v| (v, 2.0 * v + 0.3 * v * v - 0.4)).into();
+        let high: Vec<(f64, f64)> = low.iter().map(|(v, u)| (*v, u + 0.8)).collect();
+        let law = LAWS.into_iter().find(|law| law.effect() == "backlash").expect("a law");
+        System {
+            borders: Borders::new(&low, &high).expect("knots that rise"),
+            linear: LinearPart::new(&[-0.8], &[0.2], 1).expect("stable").0,
+            sensor: Sensor::EXACT,
+            terms: vec![Term { law, values: vec![play] }],
+            rule: ReversalRule::EXACT,
+        }
+    }
+
+    /// Fresh derivatives at each iteration find the same minimum.
+    #[test]
+    fn both_methods_end_at_one_minimum() {
+        let mut rng = ChaCha8Rng::seed_from_u64(3);
+        let v: Vec<f64> =
+            (0..1500).map(f64::from).map(|t| 0.6 * (0.11 * t).sin() + 0.4 * (0.017 * t).cos()).collect();
+        let span = switchback_model::system::Span::alone(v.len());
+        for (truth, start) in [(0.1, 0.08), (0.3, 0.25), (0.02, 0.03)] {
+            let mut y = machine(truth).simulate(&v, span);
+            y.iter_mut().for_each(|y| *y += 0.02 * rng.sample::<f64, _>(StandardNormal));
+            let stretches = Stretch::all(&[(&v, &y)]);
+            let begin = machine(start);
+            let scale = Scale::of(&begin.linear, begin.rule, &[(&v, &y)]);
+            let criterion = Criterion { filter: vec![-0.3], sd: 0.02 };
+            let all = Quantity::coordinates(&begin);
+            let (knots, fresh): (Vec<Quantity>, Vec<Quantity>) =
+                all.iter().partition(|q| matches!(q, Quantity::Knot(_)));
+            let (_, slow) = fit(&begin, &all, &stretches, (&criterion, &scale), Effort::FINAL);
+            let chord = Chord::of(&begin, &knots, &stretches, (&criterion, &scale));
+            let (_, fast) = chord.fit(&begin, &fresh, Effort::FINAL);
+            assert!((fast - slow).abs() < 2e-3 * slow, "{truth}: {fast} {slow}");
+            assert!(slow < 1.2 * v.len() as f64, "{truth}: {slow}");
+        }
+    }
+}
