@@ -19,8 +19,19 @@ use switchback_model::system::{LAWS, System, Term};
 pub struct Evidence {
     /// Names and values, in a fixed order.
     pub columns: Vec<(String, f64)>,
-    /// The nominal system with each promising effect, fitted, and the log-likelihood that it gains, nats a sample; best first.
-    pub fits: Vec<(System, f64)>,
+    /// The nominal system with each promising effect; best first.
+    pub fits: Vec<EffectFit>,
+}
+
+/// The nominal system with an effect, both fitted.
+#[derive(Debug, Clone, PartialEq)]
+pub struct EffectFit {
+    /// Name of the effect.
+    pub effect: &'static str,
+    /// Both together.
+    pub system: System,
+    /// Log-likelihood gained over the nominal system by itself, nats a sample.
+    pub gain: f64,
 }
 
 /// The best candidate of an effect in a metric.
@@ -87,8 +98,7 @@ impl Evidence {
         report_refined("fixed", &context, &fixed, &mut out);
         out.push(("is_given".to_owned(), f64::from(u8::from(is_given))));
         let promising = promising(&[&of_f, &of_w, &of_v], &[&as_they_are, &whitened]);
-        let both: Vec<&Refined> = as_they_are.iter().chain(&whitened).collect();
-        let likelihoods = Likelihoods::of(&context, is_fitted, (&promising, &both));
+        let likelihoods = Likelihoods::of(&context, is_fitted, (&promising, [&as_they_are, &whitened]));
         report_likelihoods(&likelihoods, &mut out);
         let white_rest = context.filtered(std::slice::from_ref(&rest), &still).remove(0);
         shape("rest", &flat(&white_rest), &setting, &mut out);
@@ -97,7 +107,8 @@ impl Evidence {
         let rms = rms(&error);
         lattice(&stretches.iter().map(|s| &s.y[..]).collect::<Vec<_>>(), rms, &mut out);
         whole(&context, (&errors, &error, &rest), [&white, &still], &mut out);
-        let fits = likelihoods.all.into_iter().map(|l| (l.system, l.fitted)).collect();
+        let fit = |l: Likelihood| EffectFit { effect: l.effect, system: l.system, gain: l.fitted };
+        let fits = likelihoods.all.into_iter().map(fit).collect();
         let finite = |(name, value): (String, f64)| {
             (name, if value.is_finite() { value.clamp(-1e6, 1e6) } else { 0.0 })
         };
@@ -148,12 +159,21 @@ fn best_of(grams: &Grams, all: &[Candidate]) -> Vec<Best> {
         let scored = own.map(|(variant, candidate)| {
             let group = group_of(candidate);
             let score = score(grams, &group);
-            Best { effect, group, variant, score }
+            let worth = match is_reversed(candidate, grams) {
+                true => -1.0 - score.validated.max(0.0),
+                false => score.validated - PRICE * group.len() as f64,
+            };
+            (worth, Best { effect, group, variant, score })
         });
-        let worth = |b: &Best| b.score.validated - PRICE * b.group.len() as f64;
-        best.extend(scored.max_by(|x, y| worth(x).total_cmp(&worth(y)).then(y.variant.cmp(&x.variant))));
+        let first = scored.max_by(|x, y| x.0.total_cmp(&y.0).then(y.1.variant.cmp(&x.1.variant)));
+        best.extend(first.map(|(_, best)| best));
     }
     best
+}
+
+/// Whether the error asks for the other sign of an effect that has one.
+fn is_reversed(candidate: &Candidate, grams: &Grams) -> bool {
+    candidate.term.as_ref().is_some_and(Term::is_one_sided) && grams.along(group_of(candidate)[0]) < 0.0
 }
 
 fn log_left(share: f64) -> f64 {
@@ -201,7 +221,7 @@ fn refined(search: &Filtered<'_>, all: &[Candidate], grams: &Grams) -> Vec<Refin
         let name = |t: &Term| (t.law.effect(), t.law.name());
         let own = all.iter().filter_map(|c| {
             let term = c.term.as_ref().filter(|t| name(t) == (law.effect(), law.name()))?;
-            Some((share(grams, &group_of(c)), term))
+            Some((if is_reversed(c, grams) { 0.0 } else { share(grams, &group_of(c)) }, term))
         });
         let (_, term) = own.max_by(|x, y| x.0.total_cmp(&y.0))?;
         Some(search.refined(term))
@@ -280,6 +300,7 @@ fn report_likelihoods(likelihoods: &Likelihoods, out: &mut Columns) {
         let mut add = |name: &str, value: f64| out.push((format!("{effect}.fit_{name}"), value));
         add("gain", of(&|l| l.fitted));
         add("ahead", of(&|l| l.fitted) - most);
+        add("same_noise", of(&|l| l.same_noise));
         add("held_out", of(&|l| l.held_out.clamp(-5.0, 5.0)));
         add("closed", of(&|l| l.closed[0].clamp(-5.0, 5.0)));
         add("closed_held_out", of(&|l| l.closed[1].clamp(-5.0, 5.0)));

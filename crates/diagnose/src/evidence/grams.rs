@@ -67,6 +67,11 @@ impl Grams {
         }
     }
 
+    /// Inner product of the error and a column: its sign is that of the column's coefficient.
+    pub(super) fn along(&self, column: usize) -> f64 {
+        self.total[(0, column)]
+    }
+
     /// Energy of the error.
     pub(super) fn energy(&self) -> f64 {
         self.total[(0, 0)].max(f64::MIN_POSITIVE)

@@ -26,7 +26,7 @@ mod setting;
 mod shape;
 mod shapes;
 
-pub use columns::Evidence;
+pub use columns::{EffectFit, Evidence};
 pub(crate) use nominal::nominal;
 pub use rig::Judged;
 
