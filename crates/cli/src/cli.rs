@@ -60,6 +60,7 @@ enum Verb {
     Schemas(cmd::schemas::Args),
     Selftest(cmd::selftest::Args),
     Simulate(cmd::simulate::Args),
+    Train(cmd::train::Args),
 }
 
 /// Runs what the words of a command line ask for, the program's own name first. Help, version and what cannot be understood
@@ -151,6 +152,7 @@ impl Cli {
             Some(Verb::Schemas(args)) => cmd::schemas::run(&args),
             Some(Verb::Selftest(args)) => cmd::selftest::run(&args),
             Some(Verb::Simulate(args)) => cmd::simulate::run(&args),
+            Some(Verb::Train(args)) => cmd::train::run(&args),
             None => cmd::study::run(&self.study),
         }
     }

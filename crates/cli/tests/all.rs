@@ -55,4 +55,5 @@ mod streams;
 mod study;
 mod study_shards;
 mod test_files;
+mod train;
 mod units;

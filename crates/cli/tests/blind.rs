@@ -88,6 +88,7 @@ fn silent(status: Status) -> Diagnosis {
             held_out_error_ratio: None,
         },
         second_opinion: None,
+        classification: None,
         gap: Gap {
             before: nothing,
             after: nothing,

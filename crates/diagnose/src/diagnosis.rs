@@ -9,6 +9,7 @@ use crate::export::PortableModel;
 use crate::figure::Figure;
 use crate::fitted_parameter::FittedParameter;
 use crate::horizon::HorizonGain;
+use crate::posterior::Classification;
 use crate::verdict::answer::Verdict;
 use crate::verdict::fitted::SecondOpinion;
 
@@ -240,8 +241,10 @@ pub struct Diagnosis {
     /// What differs between the machine and the model, simulator or records compared with it; absent where the model was identified from the machine's
     /// own records, or where a source has no gain at rest.
     pub differences: Option<Differences>,
-    /// What a verdict fitted to rigs with known causes says, where nobody designed the records and no order is declared.
+    /// What a verdict fitted to rigs with known causes says, where nobody designed the records, no order is declared, and no posterior decides.
     pub second_opinion: Option<SecondOpinion>,
+    /// What the posterior says, where one was given and asked: nobody designed the records and no order is declared, or an aligned source leaves more than the noise.
+    pub classification: Option<Classification>,
     /// How large the gap is and how far it closes.
     pub gap: Gap,
     /// Where the gap lies.

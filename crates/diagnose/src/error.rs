@@ -106,6 +106,9 @@ pub enum DiagnoseError {
         /// Its upper end.
         there_high: f64,
     },
+    /// The posterior knows other columns of evidence.
+    #[error("the posterior cannot be asked: {0}")]
+    Posterior(#[from] crate::posterior::PosteriorError),
     /// The regression has no solution.
     #[error(
         "the records do not determine the model: {reason}; add a record that moves v over its interval in both directions"

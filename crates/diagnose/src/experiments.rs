@@ -25,7 +25,9 @@ pub(crate) fn propose(
     singles: &[Hypothesis],
     noise: f64,
 ) -> Option<NextExperiment> {
-    if !matches!(verdict.status, Status::Class | Status::Ambiguous) || verdict.class.len() < 2 {
+    if !matches!(verdict.status, Status::Class | Status::Ambiguous | Status::Shortlist)
+        || verdict.class.len() < 2
+    {
         return None;
     }
     let rivals: Vec<&Hypothesis> = verdict

@@ -2,7 +2,9 @@
 
 use crate::effect::Effect;
 use crate::nominal_model::NominalModel;
+use crate::posterior::Posterior;
 use crate::verdict::fitted::Shares;
+use std::sync::Arc;
 use switchback_model::Record;
 
 /// Knobs of a diagnosis; the defaults are the calibrated ones.
@@ -20,9 +22,15 @@ pub struct Settings {
     pub max_effects: usize,
     /// A cause is named when its calibrated probability reaches this.
     pub name_at: f64,
-    /// How common causes are where the records were taken; that of the rigs which the fitted verdict knows, if not given. Counts where
-    /// that one is asked: in records that nobody designed.
+    /// How common causes are where the records were taken; that of the rigs which the fitted verdict or the posterior knows, if not given. Counts
+    /// where one of these is asked: in records that nobody designed.
     pub prior: Option<Shares>,
+    /// The posterior that decides on records that nobody designed; if not given, rules and the fitted verdict do.
+    pub posterior: Option<Arc<Posterior>>,
+    /// Probability up to which its likeliest effects are fitted, and most of these.
+    pub head: f64,
+    /// Most effects that are fitted after it.
+    pub most_fitted: usize,
     /// Seed of the block bootstrap.
     pub seed: u64,
     /// Resamples of the block bootstrap.
@@ -49,6 +57,11 @@ impl Settings {
         !self.effects.contains(&effect)
     }
 
+    /// Whether an effect is no cause of records that nobody designed: it was left out, or is the colour of their noise and nobody asked for it.
+    pub(crate) fn is_no_cause(&self, effect: Effect) -> bool {
+        self.is_left_out(effect) || effect.card().colours_noise && !self.asked.contains(&effect)
+    }
+
     /// Whether refinements of the borders are a candidate: elsewhere no knots may follow them.
     pub(crate) fn consider_refinement(&self) -> bool {
         self.effects.iter().any(|effect| effect.card().lies_in_the_grid)
@@ -65,6 +78,9 @@ impl Default for Settings {
             max_effects: 2,
             name_at: 0.85,
             prior: None,
+            posterior: None,
+            head: 0.98,
+            most_fitted: 5,
             seed: 1,
             resamples: 400,
         }

@@ -83,7 +83,7 @@ def test_a_model_predicts_the_machine(identification: sb.Identification) -> None
 
 def test_a_diagnosis_in_objects(diagnosis: sb.Diagnosis) -> None:
     verdict = diagnosis.verdict
-    assert verdict.status in ("none", "refit", "named", "class", "ambiguous", "unexplained")
+    assert verdict.status in ("none", "refit", "named", "class", "ambiguous", "shortlist", "unexplained")
     assert diagnosis.candidates[0].probability >= diagnosis.candidates[1].probability
     assert {place.axis for place in diagnosis.where} >= {"record", "v"}
     assert 0 <= diagnosis.gap.noise_floor < 1

@@ -8,12 +8,13 @@ use crate::progress::Watch;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use miette::Diagnostic;
 use std::path::PathBuf;
+use std::sync::Arc;
 use std::time::Duration;
 use switchback_diagnose::Effect;
 use switchback_diagnose::fitted::Shares;
 use switchback_host::{FmuError, Map, Simulator, predictions};
 use switchback_io::diagnosis::{
-    self, Checked, Expectation, Report, Request, Subject, examine_watched, prior,
+    self, Checked, Expectation, NoPosterior, Report, Request, Subject, examine_watched, posterior, prior,
 };
 use switchback_io::model;
 use switchback_io::output::note;
@@ -58,6 +59,10 @@ pub(crate) struct Args {
     /// none=0.2,unexplained=0.1: for records that nobody designed.
     #[arg(long, value_name = "SHARES", value_parser = prior)]
     prior: Option<Shares>,
+
+    /// Let this posterior decide on records that nobody designed, as `switchback train` trains it [default: rules, and a verdict fitted to diagnoses]
+    #[arg(long, value_name = "POSTERIOR.bin")]
+    posterior: Option<PathBuf>,
 
     /// Diagnose a simulator: run this co-simulation FMU (FMI 2.0) over the records, and take its outputs for y_sim.
     #[arg(long, value_name = "MODEL.fmu", conflicts_with_all = ["model", "power"])]
@@ -143,7 +148,7 @@ pub(crate) fn run(args: &Args) -> CommandResult {
     };
     let subject = subject.noting(notes);
     let watch = Watch::new(args.output.quiet);
-    let settings = request(args).settings();
+    let settings = request(args)?.settings();
     let report = args.threads.install(|| examine_watched(subject, &settings, &watch))?;
     let report = report.map_err(|error| error.in_file(data.place()))?;
     watch.finish();
@@ -204,15 +209,16 @@ fn patience(text: &str) -> Result<Duration, String> {
 }
 
 /// What is asked of a diagnosis.
-fn request(args: &Args) -> Request {
+fn request(args: &Args) -> Result<Request, NoPosterior> {
     let Args { without, ask, causal, prior, .. } = args;
-    Request { without: without.clone(), ask: ask.clone(), causal: *causal, prior: *prior }
+    let posterior = args.posterior.as_deref().map(posterior).transpose()?.map(Arc::new);
+    Ok(Request { without: without.clone(), ask: ask.clone(), causal: *causal, prior: *prior, posterior })
 }
 
 fn run_power(args: &Args, data: &rig::Request, loaded: &Loaded) -> CommandResult {
     let asked = power::Order {
         model: args.model.as_deref(),
-        settings: request(args).settings(),
+        settings: request(args)?.settings(),
         out: args.out.as_ref(),
         json: args.json,
         options: (args.threads, args.output.quiet, args.output.force),

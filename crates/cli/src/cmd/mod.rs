@@ -28,3 +28,4 @@ pub(crate) mod schemas;
 pub(crate) mod selftest;
 pub(crate) mod simulate;
 pub(crate) mod study;
+pub(crate) mod train;

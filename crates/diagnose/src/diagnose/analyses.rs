@@ -173,7 +173,7 @@ impl Analyses {
 
 impl Analysis {
     /// Hypotheses of one effect as candidates with a probability; those that the verdict shows with profiled intervals.
-    fn candidates(
+    pub(super) fn candidates(
         &self,
         workers: &impl Workers,
         weighed: &[(&Hypothesis, f64)],

@@ -37,14 +37,7 @@ impl Plan {
     /// counts from then on.
     pub(super) fn gather(&self, workers: &impl Workers) -> Evidence {
         workers.begin(Phase::Effects);
-        let attribution = &Attribution {
-            dataset: &self.dataset,
-            settings: &self.settings,
-            nominal: &self.nominal.plain,
-            detailed: &self.nominal.detailed,
-            workers,
-            pair_effort: self.pair_effort,
-        };
+        let attribution = &self.attribution(workers);
         let mut evidence = self.weigh_in(attribution.workers, attribution.singles());
         if !self.dataset.holds_nominal()
             && (evidence.leaves_something() || evidence.is_coloured())
@@ -73,13 +66,8 @@ impl Plan {
     }
 
     /// Compares the candidates on held-out records, drops those that cannot be the cause, and tests the remaining error of the best.
-    fn weigh_in(&self, workers: &impl Workers, mut singles: Vec<Hypothesis>) -> Evidence {
-        singles.retain(Hypothesis::may_be_a_cause);
-        if self.owns_colour && !self.dataset.holds_nominal() {
-            self.put_noise_beside_the_model(workers, &mut singles);
-        }
-        self.validation_penalty(workers, &mut singles);
-        self.keep_one_law_of_each(&mut singles);
+    fn weigh_in(&self, workers: &impl Workers, singles: Vec<Hypothesis>) -> Evidence {
+        let mut singles = self.one_of_each(workers, singles);
         let all = singles.clone();
         let significant =
             singles.first().is_some_and(|s| s.bic() < self.nominal.plain.bic() - 0.5 * SIGNIFICANT);
@@ -99,6 +87,34 @@ impl Plan {
         let best = singles.first().filter(|_| significant).unwrap_or(&self.nominal.plain).clone();
         let tests = omnibus(&self.dataset, &best.fit);
         Evidence { all, singles, ranked, outdone, significant, best, tests, pair: None }
+    }
+
+    /// A fit of each effect that is considered.
+    pub(super) fn singles(&self, workers: &impl Workers) -> Vec<Hypothesis> {
+        workers.begin(Phase::Effects);
+        self.one_of_each(workers, self.attribution(workers).singles())
+    }
+
+    fn attribution<'a, W: Workers>(&'a self, workers: &'a W) -> Attribution<'a, W> {
+        Attribution {
+            dataset: &self.dataset,
+            settings: &self.settings,
+            nominal: &self.nominal.plain,
+            detailed: &self.nominal.detailed,
+            workers,
+            pair_effort: self.pair_effort,
+        }
+    }
+
+    /// Of each effect the fit that counts, compared on held-out records.
+    fn one_of_each(&self, workers: &impl Workers, mut singles: Vec<Hypothesis>) -> Vec<Hypothesis> {
+        singles.retain(Hypothesis::may_be_a_cause);
+        if self.owns_colour && !self.dataset.holds_nominal() {
+            self.put_noise_beside_the_model(workers, &mut singles);
+        }
+        self.validation_penalty(workers, &mut singles);
+        self.keep_one_law_of_each(&mut singles);
+        singles
     }
 
     /// Noise moves no simulation, nor does a sensor that rounds: where fitting the model anew with them spoils that of a held-out record,

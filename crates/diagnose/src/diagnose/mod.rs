@@ -2,6 +2,7 @@
 
 mod analyses;
 mod attribute;
+mod classified;
 mod compared;
 mod degradation;
 mod evidence;
@@ -34,7 +35,8 @@ use crate::workers::{Serial, Workers};
 /// Diagnoses the gap between a model and a rig.
 ///
 /// Identifies (or takes) the nominal model, fits every effect of the library together with it, ranks them by penalised
-/// likelihood, tests what the best leaves, and measures how far it closes the gap on the held-out records.
+/// likelihood, tests what the best leaves, and measures how far it closes the gap on the held-out records. Where nobody designed the records
+/// and no order is declared, a trained [posterior](crate::posterior) decides, if the settings have one, and the effects that it finds likely are fitted.
 ///
 /// # Errors
 /// [`DiagnoseError`] where nothing can be judged; what can be judged only in part becomes a
@@ -59,6 +61,15 @@ pub fn diagnose_with(
     workers.begin(Phase::Nominal);
     let records = Dataset::new(rig)?;
     let declared = declared(rig, &model)?;
+    let is_asked = settings.asked.iter().any(|effect| effect.card().colours_noise);
+    if declared.is_none()
+        && !records.is_designed()
+        && !is_asked
+        && let Some(posterior) = &settings.posterior
+        && let Some(diagnosis) = classified::classified(workers, rig, (&records, settings), posterior)?
+    {
+        return Ok(diagnosis);
+    }
     let plan = |chosen: Chosen| Plan::new(rig, &model, settings, chosen);
     let chosen = structure(workers, records.clone(), declared, settings)?;
     let (mut reported, others) = analyse(workers, chosen, &plan)?;

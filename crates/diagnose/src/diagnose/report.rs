@@ -117,6 +117,7 @@ impl Plan {
             verdict,
             differences: None,
             second_opinion: None,
+            classification: None,
             gap,
             candidates,
             probability_none: c.odds.none,

@@ -7,6 +7,7 @@ use switchback_model::reversal::ReversalRule;
 use switchback_model::rig::{Rig, Usage};
 use switchback_model::system::{Borders, LinearPart, Sensor, System};
 
+use super::classified::OUTSIDE;
 use super::given_model::GivenModel;
 use super::plan::{Plan, judged_scaled_records};
 use super::report::{Conclusion, Other};
@@ -14,9 +15,11 @@ use crate::diagnosis::{Candidate, Diagnosis};
 use crate::differences::{Differences, MachineRecord, RowKind, Source, compare};
 use crate::effect::Effect;
 use crate::error::DiagnoseError;
+use crate::evidence::Judged;
 use crate::nominal::order::{Choice, declared, structure};
 use crate::nominal_model::NominalModel;
 use crate::phase::Phase;
+use crate::posterior::{Classification, Posterior};
 use crate::records::dataset::{Dataset, dimensionless};
 use crate::settings::{Model, Settings};
 use crate::verdict::answer::{Status, Verdict, naming_nothing};
@@ -47,7 +50,48 @@ pub(super) fn compared(
     };
     let plan = Plan::new(&rig, &model, &Settings { effects: Vec::new(), ..settings.clone() }, chosen)?;
     workers.begin(Phase::Report);
-    Ok(report(plan, &rig, differences))
+    let diagnosis = report(plan, &rig, differences);
+    match (diagnosis.verdict.status, &diagnosis.differences, &settings.posterior) {
+        (Status::Unexplained, Some(found), Some(posterior)) => {
+            let aligned: Vec<Vec<f64>> = found.runs.iter().map(|[_, aligned]| aligned.clone()).collect();
+            let classified = classified_beside(&rig, &aligned, (posterior, settings))?;
+            Ok(with(diagnosis, classified))
+        }
+        _ => Ok(diagnosis),
+    }
+}
+
+/// What the posterior says of a rig beside an aligned source that leaves more than the noise; none where its predictions show no system.
+fn classified_beside(
+    rig: &Rig,
+    aligned: &[Vec<f64>],
+    (posterior, settings): (&Posterior, &Settings),
+) -> Result<Option<Classification>, DiagnoseError> {
+    let Ok(Some(judged)) = Judged::beside(rig, aligned) else { return Ok(None) };
+    Ok(Some(Classification::of(&judged, posterior, settings)?))
+}
+
+/// The diagnosis with the verdict of the posterior.
+fn with(diagnosis: Diagnosis, classification: Option<Classification>) -> Diagnosis {
+    let Some(classification) = classification else { return diagnosis };
+    let mut limitations = diagnosis.limitations;
+    if classification.is_outside() {
+        limitations.push(OUTSIDE.to_owned());
+    }
+    let verdict = classification.verdict();
+    // That the aligned source leaves more than the noise was measured.
+    let verdict = match verdict.status {
+        Status::None => naming_nothing(Status::Unexplained, None, classification.unexplained()),
+        _ => verdict,
+    };
+    Diagnosis {
+        verdict,
+        limitations,
+        probability_none: classification.none,
+        probability_unexplained: classification.unexplained(),
+        classification: Some(classification),
+        ..diagnosis
+    }
 }
 
 /// The comparison itself; none where the source has no gain at rest.

@@ -58,6 +58,10 @@ impl<'a> Reader<'a> {
             _ => Err(self.damaged("a count exceeds the file")),
         }
     }
+    /// A count of what the file does not hold.
+    pub(super) fn any_count(&mut self) -> Result<usize, PosteriorError> {
+        Ok(self.version()? as usize)
+    }
     pub(super) fn version(&mut self) -> Result<u32, PosteriorError> {
         let four = self.take(4)?;
         Ok(u32::from_le_bytes([four[0], four[1], four[2], four[3]]))

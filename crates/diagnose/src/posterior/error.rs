@@ -7,7 +7,7 @@ use thiserror::Error;
 #[non_exhaustive]
 pub enum PosteriorError {
     /// The file is not one of a posterior.
-    #[error("the file holds no posterior: it does not begin with SWBP; train one with `lab train`")]
+    #[error("the file holds no posterior: it does not begin with SWBP; train one with `switchback train`")]
     NoPosterior,
     /// The file is of another version.
     #[error("the posterior has version {found}, this program reads version {known}; train it anew")]

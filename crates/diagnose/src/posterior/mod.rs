@@ -1,27 +1,33 @@
 //! A trained posterior: from named columns of evidence to probabilities of all outcomes.
 //!
 //! The weights are data ([`Posterior::read`]), written by a command of the laboratory. Evaluation is plain arithmetic in a fixed order. The
-//! probabilities are a weighted geometric mean of [boosted trees](Trees), a [network](Network) and a [ranker](Ranker), raised to a power that
-//! was fitted to a population. [`Novelty`] is the distance of a row from the training population, [`decide`] gives the report.
+//! probabilities are a weighted geometric mean of [boosted trees](Trees), a [network](Network) and a [ranker](Ranker), which a
+//! [second stage](SecondStage) joins with the likelihood of fits, raised to a power that was fitted to a population. [`Novelty`] is the distance of a row from the training population, [`decide`] gives the report.
 
 mod bytes;
+mod classification;
 mod decision;
 mod error;
 mod file;
 mod network;
 mod novelty;
+mod prior;
 mod ranker;
+mod second_stage;
 mod softmax;
 mod standard;
 mod trees;
 mod weights;
 
+pub use classification::{Cause, Classification};
 pub use decision::{Decision, Losses, Outcome, Thresholds, decide};
 pub use error::PosteriorError;
 pub use file::VERSION;
 pub use network::{Layer, Network};
 pub use novelty::Novelty;
+pub use prior::Prior;
 pub use ranker::Ranker;
+pub use second_stage::SecondStage;
 pub use softmax::softmax;
 pub use standard::Standard;
 pub use trees::{Node, Tree, Trees};

@@ -1,37 +1,55 @@
-//! One model that asks of every pair of a rig and an effect whether that is the cause.
+//! One model that scores every pair of a rig and an outcome.
 
 use super::bytes::{Reader, Writer};
 use super::error::PosteriorError;
+use super::softmax::softmax;
 use super::trees::Trees;
 
-/// A binary model on an effect's own columns, their ranks among the effects, and columns of the whole rig.
+/// A conditional logit whose score is a sum of trees: `p_k = exp(s(x_k))/Σ_j exp(s(x_j))`, with `x_k` an outcome's own columns, their ranks among the
+/// outcomes, and columns of the whole rig. What is learnt of one effect serves all others.
+///
+/// D. McFadden, "Conditional logit analysis of qualitative choice behavior", 1974.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Ranker {
-    /// Classes that have columns of their own.
-    pub classes: Vec<u16>,
-    /// Their columns, the same statistics in the same order for each of these classes.
+    /// Columns of each outcome's own: the same statistics in the same order, or none.
     pub own: Vec<Vec<u16>>,
     /// Columns of the whole rig.
     pub common: Vec<u16>,
-    /// Scores a pair's row: own columns, their ranks, common columns, and the number of the effect.
+    /// Scores a pair's row.
     pub trees: Trees,
 }
 
 impl Ranker {
-    /// The row of a pair.
-    pub fn row(&self, row: &[f64], effect: usize) -> Vec<f64> {
-        pair_row(&self.own, &self.common, row, effect)
+    /// Statistics that outcomes with own columns have.
+    fn statistics(&self) -> usize {
+        self.own.iter().map(Vec::len).max().unwrap_or(0)
     }
 
-    /// Probabilities of all classes: those of the ranker for the classes that it knows, else those given; sums to one.
-    pub fn probabilities(&self, row: &[f64], others: &[f64]) -> Vec<f64> {
-        let mut p = others.to_vec();
-        for (effect, class) in self.classes.iter().enumerate() {
-            let score = self.trees.scores(&self.row(row, effect))[0];
-            p[usize::from(*class)] = 1.0 / (1.0 + libm::exp(-score));
+    /// Numbers in the row of a pair.
+    pub fn width(&self) -> usize {
+        2 * self.statistics() + self.common.len() + 1
+    }
+
+    /// The row of a pair: own columns, how many outcomes have a larger value in each, common columns, the number of the outcome. An outcome without
+    /// own columns has zeros for both.
+    pub fn row(&self, row: &[f64], outcome: usize) -> Vec<f64> {
+        let value = |column: &u16| row[usize::from(*column)];
+        let own = &self.own[outcome];
+        let mut pair: Vec<f64> = own.iter().map(value).collect();
+        for (statistic, here) in pair.clone().into_iter().enumerate() {
+            let others = self.own.iter().filter_map(|other| other.get(statistic));
+            pair.push(others.filter(|other| value(other) > here).count() as f64);
         }
-        let sum: f64 = p.iter().sum();
-        p.iter().map(|p| p / sum).collect()
+        pair.resize(2 * self.statistics(), 0.0);
+        pair.extend(self.common.iter().map(value));
+        pair.push(outcome as f64);
+        pair
+    }
+
+    /// Probabilities of all outcomes.
+    pub fn probabilities(&self, row: &[f64]) -> Vec<f64> {
+        let score = |outcome: usize| self.trees.scores(&self.row(row, outcome))[0];
+        softmax(&(0..self.own.len()).map(score).collect::<Vec<f64>>())
     }
 
     pub(super) fn write(&self, out: &mut Writer) {
@@ -39,7 +57,6 @@ impl Ranker {
             out.count(all.len());
             all.iter().for_each(|n| out.small(usize::from(*n)));
         };
-        list(out, &self.classes);
         self.own.iter().for_each(|own| list(out, own));
         list(out, &self.common);
         self.trees.write(out);
@@ -50,38 +67,26 @@ impl Ranker {
         columns: usize,
         classes: usize,
     ) -> Result<Self, PosteriorError> {
-        let list = |from: &mut Reader<'_>, below: usize| -> Result<Vec<u16>, PosteriorError> {
+        let list = |from: &mut Reader<'_>| -> Result<Vec<u16>, PosteriorError> {
             let n = from.count_of(2)?;
             let all = (0..n).map(|_| from.small()).collect::<Result<Vec<_>, _>>()?;
-            if all.iter().any(|k| *k >= below) {
+            if all.iter().any(|k| *k >= columns) {
                 return Err(from.damaged("a ranker of columns that are not there"));
             }
             Ok(all.into_iter().map(|k| k as u16).collect())
         };
-        let known = list(from, classes)?;
-        let own = known.iter().map(|_| list(from, columns)).collect::<Result<Vec<_>, _>>()?;
-        let common = list(from, columns)?;
-        let each = own.first().map_or(0, Vec::len);
-        if own.iter().any(|own| own.len() != each) {
-            return Err(from.damaged("effects with unequal columns"));
+        let own = (0..classes).map(|_| list(from)).collect::<Result<Vec<_>, _>>()?;
+        let common = list(from)?;
+        let trees = Trees { edges: Vec::new(), start: Vec::new(), rounds: Vec::new() };
+        let empty = Self { own, common, trees };
+        let each = empty.statistics();
+        if empty.own.iter().any(|own| !own.is_empty() && own.len() != each) {
+            return Err(from.damaged("outcomes with unequal columns"));
         }
-        let trees = Trees::read(from, 2 * each + common.len() + 1)?;
+        let trees = Trees::read(from, empty.width())?;
         if trees.start.len() != 1 {
             return Err(from.damaged("a ranker of more than one score"));
         }
-        Ok(Self { classes: known, own, common, trees })
+        Ok(Self { trees, ..empty })
     }
-}
-
-/// Own columns, how many effects have a larger value in each, common columns, the number of the effect.
-fn pair_row(own: &[Vec<u16>], common: &[u16], row: &[f64], effect: usize) -> Vec<f64> {
-    let value = |column: &u16| row[usize::from(*column)];
-    let mut pair: Vec<f64> = own[effect].iter().map(value).collect();
-    for statistic in 0..own[effect].len() {
-        let here = pair[statistic];
-        pair.push(own.iter().filter(|other| value(&other[statistic]) > here).count() as f64);
-    }
-    pair.extend(common.iter().map(value));
-    pair.push(effect as f64);
-    pair
 }

@@ -73,6 +73,9 @@ fn posterior() -> Posterior {
     ]);
     Posterior {
         provenance: "by hand".to_owned(),
+        rows: 7,
+        prior: Prior { effect: 0.5, none: 0.25, none_of_these: 0.25 },
+        thresholds: Thresholds { named: 0.75, class: 0.875, ..Thresholds::default() },
         columns: vec!["x".to_owned(), "y".to_owned()],
         classes: vec!["creep".to_owned(), "none".to_owned()],
         trees: Trees {
@@ -82,6 +85,7 @@ fn posterior() -> Posterior {
         },
         network: None,
         ranker: None,
+        second: None,
         shares: Shares { trees: 1.0, network: 0.0, ranker: 0.0 },
         temperatures: vec![("made".to_owned(), 2.0)],
         novelty: Novelty {

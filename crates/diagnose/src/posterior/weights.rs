@@ -1,9 +1,12 @@
 //! The trained posterior.
 
+use super::decision::Thresholds;
 use super::error::PosteriorError;
 use super::network::Network;
 use super::novelty::Novelty;
+use super::prior::Prior;
 use super::ranker::Ranker;
+use super::second_stage::SecondStage;
 use super::softmax::softmax;
 use super::trees::Trees;
 use std::collections::BTreeMap;
@@ -24,6 +27,12 @@ pub struct Shares {
 pub struct Posterior {
     /// Where its weights come from: command, population, date of the program.
     pub provenance: String,
+    /// Rigs that it was trained on.
+    pub rows: usize,
+    /// How common causes are among these.
+    pub prior: Prior,
+    /// From which probabilities on a cause is reported, fitted to rigs that were held out.
+    pub thresholds: Thresholds,
     /// Names of the columns, in the order of a row.
     pub columns: Vec<String>,
     /// Names of the outcomes.
@@ -36,6 +45,8 @@ pub struct Posterior {
     pub ranker: Option<Ranker>,
     /// Weights in the geometric mean.
     pub shares: Shares,
+    /// The second stage, where classes have fits.
+    pub second: Option<SecondStage>,
     /// Temperatures by population: probabilities are raised to the power `1/T`.
     pub temperatures: Vec<(String, f32)>,
     /// Distance to the training population.
@@ -46,6 +57,13 @@ pub struct Posterior {
 const LEAST: f64 = 1e-6;
 
 impl Posterior {
+    /// The name of all populations together.
+    pub const ALL: &'static str = "all";
+    /// The name of the outcome that nothing is missing.
+    pub const NOTHING: &'static str = "none";
+    /// The name of the outcome that something without a name is.
+    pub const NONE_OF_THESE: &'static str = "unexplained";
+
     /// Values in the order of the columns.
     ///
     /// # Errors
@@ -80,9 +98,14 @@ impl Posterior {
             add(self.shares.network, &softmax(&network.scores(row)));
         }
         if let Some(ranker) = &self.ranker {
-            add(self.shares.ranker, &ranker.probabilities(row, &by_trees));
+            add(self.shares.ranker, &ranker.probabilities(row));
         }
-        softmax(&logs)
+        let first = softmax(&logs);
+        let nothing = self.classes.iter().position(|class| class == Self::NOTHING);
+        match &self.second {
+            Some(second) => second.probabilities(row, &first, nothing),
+            None => first,
+        }
     }
 
     /// Probabilities of the outcomes of a [row](Self::row) from a population; they sum to one.

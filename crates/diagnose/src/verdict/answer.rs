@@ -23,19 +23,22 @@ pub enum Status {
     Class,
     /// Several candidates that the next experiment would separate.
     Ambiguous,
+    /// The likeliest effects, none of them likely enough to be named.
+    Shortlist,
     /// A gap whose cause is none of the candidates.
     Unexplained,
 }
 
 impl Status {
     /// Every status.
-    pub const ALL: [Self; 7] = [
+    pub const ALL: [Self; 8] = [
         Self::None,
         Self::Parameters,
         Self::Refit,
         Self::Named,
         Self::Class,
         Self::Ambiguous,
+        Self::Shortlist,
         Self::Unexplained,
     ];
 
@@ -48,6 +51,7 @@ impl Status {
             Self::Named => "named",
             Self::Class => "class",
             Self::Ambiguous => "ambiguous",
+            Self::Shortlist => "shortlist",
             Self::Unexplained => "unexplained",
         }
     }
@@ -60,7 +64,7 @@ pub struct Verdict {
     pub status: Status,
     /// The effects named (status `named`: all of them act; `class`: the likeliest member). Empty otherwise.
     pub effects: Vec<Effect>,
-    /// The confounded effects or rivals left standing (status `class` or `ambiguous`), likeliest first.
+    /// The confounded effects or rivals left standing (status `class`, `ambiguous` or `shortlist`), likeliest first.
     pub class: Vec<Effect>,
     /// The stage that the gap points at, also when unexplained.
     pub stage: Option<Stage>,

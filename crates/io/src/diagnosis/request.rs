@@ -1,6 +1,8 @@
 //! What is asked of a diagnosis.
 
+use std::sync::Arc;
 use switchback_diagnose::fitted::Shares;
+use switchback_diagnose::posterior::Posterior;
 use switchback_diagnose::{Effect, Settings};
 
 /// What the user knows of the rig and wants of its models.
@@ -14,6 +16,8 @@ pub struct Request {
     pub causal: bool,
     /// How common causes are on machines like this one.
     pub prior: Option<Shares>,
+    /// The posterior that decides on records that nobody designed, where there is one.
+    pub posterior: Option<Arc<Posterior>>,
 }
 
 impl Request {
@@ -21,6 +25,7 @@ impl Request {
     pub fn settings(&self) -> Settings {
         Settings {
             prior: self.prior,
+            posterior: self.posterior.clone(),
             causal: self.causal,
             ..Settings::default().without(&self.without).asking(&self.ask)
         }

@@ -1,7 +1,7 @@
 //! What a diagnosis said, and on what evidence, as plain data that lasts.
 
 use serde::{Deserialize, Serialize};
-use switchback_diagnose::{Compared, Diagnosis, Status, Together, Verdict};
+use switchback_diagnose::{Compared, Diagnosis, Effect, Status, Together, Verdict};
 
 /// What a diagnosis said, in the words of its JSON.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -55,8 +55,18 @@ impl Reply {
 
     fn top(d: &Diagnosis) -> (&'static str, f64) {
         let rest = [("none", d.probability_none), ("unexplained", d.probability_unexplained)];
-        let effects = d.candidates.iter().map(|c| (c.effect.name(), c.probability));
-        effects.chain(rest).fold(("failed", 0.0), |best, x| if x.1 > best.1 { x } else { best })
+        let fitted = d.candidates.iter().map(|c| (c.effect, c.probability));
+        let effects: Vec<(Effect, f64)> = match &d.classification {
+            Some(classification) => {
+                classification.causes.iter().filter_map(|c| Some((c.effect?, c.probability))).collect()
+            }
+            None => fitted.collect(),
+        };
+        effects
+            .into_iter()
+            .map(|(effect, p)| (effect.name(), p))
+            .chain(rest)
+            .fold(("failed", 0.0), |best, x| if x.1 > best.1 { x } else { best })
     }
 
     /// A verdict, with the likeliest candidate.

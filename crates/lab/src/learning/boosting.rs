@@ -14,8 +14,8 @@ use switchback_diagnose::posterior::{Tree, Trees, softmax};
 pub enum Target {
     /// One of so many classes: multinomial loss.
     Classes(Vec<usize>, usize),
-    /// Yes or no: logistic loss.
-    Binary(Vec<bool>),
+    /// Which of so many alternatives, each a row of its own, the rows of one choice behind each other: conditional logit.
+    Choice(Vec<usize>, usize),
 }
 
 /// Smallest second derivative of a row.
@@ -72,10 +72,8 @@ impl Target {
             Self::Classes(labels, classes) => {
                 (0..*classes).map(|class| libm::log(share(&|row| labels[row] == class)) as f32).collect()
             }
-            Self::Binary(labels) => {
-                let p = share(&|row| labels[row]);
-                vec![libm::log(p / (1.0 - p)) as f32]
-            }
+            // What all alternatives have in common decides nothing.
+            Self::Choice(..) => vec![0.0],
         }
     }
 
@@ -95,10 +93,13 @@ impl Target {
                 };
                 (0..*classes).map(class).collect()
             }
-            Self::Binary(labels) => {
-                let row =
-                    |(row, s): (usize, &f64)| of(1.0 / (1.0 + libm::exp(-s)), labels[row], weights[row]);
-                vec![scores[0].iter().enumerate().map(row).unzip()]
+            Self::Choice(labels, alternatives) => {
+                let choice = |(number, scores): (usize, &[f64])| {
+                    let (label, first) = (labels[number], number * alternatives);
+                    let p = softmax(scores).into_iter().enumerate();
+                    p.map(move |(k, p)| of(p, k == label, weights[first + k])).collect::<Vec<_>>()
+                };
+                vec![scores[0].chunks(*alternatives).enumerate().flat_map(choice).unzip()]
             }
         }
     }
@@ -115,27 +116,31 @@ mod tests {
                 let all: Vec<f64> = scores.iter().map(|s| s[row]).collect();
                 all.iter().map(|s| s.exp()).sum::<f64>().ln() - all[labels[row]]
             }
-            Target::Binary(labels) => {
-                let s = if labels[row] { scores[0][row] } else { -scores[0][row] };
-                (1.0 + (-s).exp()).ln()
+            Target::Choice(labels, alternatives) => {
+                let own = &scores[0][row * alternatives..(row + 1) * alternatives];
+                own.iter().map(|s| s.exp()).sum::<f64>().ln() - own[labels[row]]
             }
         };
-        (0..weights.len()).map(|r| weights[r] * row(r)).sum()
+        let (rows, weight) = match target {
+            Target::Classes(..) => (weights.len(), 1),
+            Target::Choice(_, alternatives) => (weights.len() / alternatives, *alternatives),
+        };
+        (0..rows).map(|r| weights[r * weight] * row(r)).sum()
     }
 
     #[test]
     fn derivatives_are_those_of_the_loss() {
-        let weights = [1.0, 0.5, 2.0];
         let targets = [
             (
                 Target::Classes(vec![0, 2, 1], 3),
                 vec![vec![0.1, -0.4, 0.3], vec![1.0, 0.2, -0.6], vec![0.0, 0.7, 0.5]],
+                vec![1.0, 0.5, 2.0],
             ),
-            (Target::Binary(vec![true, false, true]), vec![vec![0.3, -0.8, 1.4]]),
+            (Target::Choice(vec![1, 0], 2), vec![vec![0.3, -0.8, 1.4, 0.2]], vec![1.0, 1.0, 2.0, 2.0]),
         ];
-        for (target, scores) in targets {
+        for (target, scores, weights) in targets {
             for (class, (first, second)) in target.derivatives(&scores, &weights).iter().enumerate() {
-                for row in 0..3 {
+                for row in 0..first.len() {
                     let at = |step: f64| {
                         let mut moved = scores.clone();
                         moved[class][row] += step;

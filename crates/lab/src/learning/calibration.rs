@@ -13,6 +13,13 @@ pub(super) fn temperature(p: &[Vec<f64>], labels: &[usize], weights: &[f64]) -> 
     libm::exp(golden(loss, (-libm::log(4.0), libm::log(4.0))))
 }
 
+/// Probabilities at a temperature: `pᵢ^(1/T)`, summing to one.
+pub(super) fn cooled(p: &[f64], temperature: f64) -> Vec<f64> {
+    let powers: Vec<f64> = p.iter().map(|p| libm::pow(p.max(1e-300), 1.0 / temperature)).collect();
+    let sum: f64 = powers.iter().sum();
+    powers.iter().map(|p| p / sum).collect()
+}
+
 /// Shares in the geometric mean of least log score, by a coarse grid that holds each model alone and all together.
 pub(super) fn shares(models: &[Vec<Vec<f64>>], labels: &[usize], weights: &[f64]) -> Vec<f64> {
     let mut best = (f64::INFINITY, vec![1.0; models.len()]);

@@ -12,8 +12,6 @@ pub struct LearningSettings {
     pub network: NetworkSettings,
     /// Boosted trees of the ranker.
     pub ranker: BoostingSettings,
-    /// Other effects that the ranker is shown beside the true one of each row.
-    pub others: usize,
     /// Directions of the distance to the training population.
     pub directions: usize,
     /// Folds by family, and by law: their product is the number of folds.
@@ -32,7 +30,6 @@ impl Default for LearningSettings {
                 least_rows: 20,
                 ..BoostingSettings::default()
             },
-            others: 6,
             directions: 20,
             folds: 3,
         }

@@ -161,6 +161,18 @@ impl Table {
         self.values.iter().map(|column| column[row]).collect()
     }
 
+    /// Whether anybody knows that the class of a row is right: a machine that was measured has effects by itself, so that nobody knows whether
+    /// nothing is wrong where nothing was put in.
+    pub fn is_known(&self, row: usize) -> bool {
+        self.classes[self.labels[row]] != "none" || self.groups[row].family != "measured"
+    }
+
+    /// The rows whose class is known.
+    #[must_use]
+    pub fn known(&self) -> Self {
+        self.of_rows(&(0..self.rows()).filter(|row| self.is_known(*row)).collect::<Vec<usize>>())
+    }
+
     /// The table of some rows, with all classes.
     #[must_use]
     pub fn of_rows(&self, rows: &[usize]) -> Self {

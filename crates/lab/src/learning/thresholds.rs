@@ -1,16 +1,12 @@
 //! Thresholds of what is reported, fitted by losses.
 
-use switchback_diagnose::posterior::{Losses, Outcome, Thresholds, decide};
-
-/// Names of the outcomes that are no effect.
-const NOTHING: &str = "none";
-const NONE_OF_THESE: &str = "unexplained";
+use switchback_diagnose::posterior::{Losses, Outcome, Posterior, Thresholds, decide};
 
 /// What the classes of a table are.
 pub fn outcomes(classes: &[String]) -> Vec<Outcome> {
     let one = |class: &String| match class.as_str() {
-        NOTHING => Outcome::Nothing,
-        NONE_OF_THESE => Outcome::NoneOfThese,
+        Posterior::NOTHING => Outcome::Nothing,
+        Posterior::NONE_OF_THESE => Outcome::NoneOfThese,
         _ => Outcome::Effect,
     };
     classes.iter().map(one).collect()

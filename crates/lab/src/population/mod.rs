@@ -23,7 +23,7 @@ mod summary;
 mod training_rig;
 
 pub use draw::draw;
-pub use evidence::EvidenceRow;
+pub use evidence::{EvidenceRow, evidence_table};
 pub use family::Family;
 pub use measured::MeasuredBases;
 pub use pairs::{Difference, PairTruth, Row, Side, TrainingPair, draw_pair};

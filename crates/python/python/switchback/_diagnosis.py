@@ -224,6 +224,7 @@ def diagnose(
     ask: Union[str, Iterable[str], None] = None,
     causal: bool = False,
     prior: Optional[Mapping[str, float]] = None,
+    posterior: Optional[PathLike] = None,
     threads: Optional[int] = None,
     progress: Optional[bool] = None,
 ) -> Diagnosis:
@@ -247,6 +248,8 @@ def diagnose(
     prior
         How common it is, on machines like yours, that nothing is missing, and that the cause is none of the effects, e.g.
         ``{"none": 0.2, "unexplained": 0.1}``: for records that nobody designed.
+    posterior
+        Decide by this posterior, a file that ``switchback calibrate`` has trained, on records that nobody designed; else by the one built in.
     threads, progress
         As in :func:`identify`.
 
@@ -258,7 +261,14 @@ def diagnose(
     rig = rig_of(rig)
     if y_sim is not None:
         rig = rig.with_y_sim(y_sim)
-    options = texts(without=several(without), ask=several(ask), causal=causal, prior=shares(prior), threads=threads)
+    options = texts(
+        without=several(without),
+        ask=several(ask),
+        causal=causal,
+        prior=shares(prior),
+        posterior=None if posterior is None else str(posterior),
+        threads=threads,
+    )
     given = None if model is None else model_of(model)
     with shown(progress) as heard:
         return Diagnosis(_native.diagnose(records_of(rig), options, given, heard))

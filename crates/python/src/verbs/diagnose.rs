@@ -8,10 +8,13 @@ use crate::records::Records;
 use crate::refusal::Refusal;
 use pyo3::prelude::*;
 use std::collections::BTreeMap;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use switchback_diagnose::Effect;
-use switchback_io::diagnosis::{GivenModel, Report, Request, Subject, examine_watched, prior};
+use switchback_diagnose::posterior::Posterior;
+use switchback_io::diagnosis::{
+    GivenModel, NoPosterior, Report, Request, Subject, examine_watched, posterior, prior,
+};
 use switchback_io::model;
 use switchback_io::output::Artefacts;
 use switchback_report::diagnosis as text;
@@ -47,7 +50,12 @@ pub(super) fn request(options: &mut Options) -> Result<Request, Refusal> {
         ask: options.names("--ask <EFFECT>", &Effect::ALL, name)?,
         causal: options.switch("--causal")?,
         prior: options.value("--prior <SHARES>", prior)?,
+        posterior: options.value("--posterior <POSTERIOR.bin>", of_file)?.map(Arc::new),
     })
+}
+
+fn of_file(path: &str) -> Result<Posterior, NoPosterior> {
+    posterior(Path::new(path))
 }
 
 #[derive(Debug)]

@@ -1,6 +1,7 @@
 //! The diagnosis as one JSON object.
 
 use super::differences::{Difference, written};
+use super::posterior::Posterior;
 use super::sentences;
 use schemars::{JsonSchema, Schema};
 use serde::{Deserialize, Serialize};
@@ -59,6 +60,9 @@ pub(crate) struct GapFile {
     pub probability_unexplained: f64,
     /// What a model says that was fitted to diagnoses of rigs whose cause is known; null where an order is declared or an experiment was designed.
     pub second_opinion: Option<SecondOpinion>,
+    /// What a posterior says that was trained on rigs whose cause is known; null where none was given, an order is declared or an experiment was designed.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub posterior: Option<Posterior>,
     /// What to read with care, a sentence each.
     pub limitations: Vec<String>,
     /// Version of Switchback that wrote it.
@@ -68,7 +72,7 @@ pub(crate) struct GapFile {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct Verdict {
-    /// `none`: nothing significant; `parameters`: values of what was compared are off, and nothing is missing in it; `named`: `effects` are the cause; `class`: one of `class`, which these records cannot separate; `ambiguous`: one of `class`, which `next_experiment` would separate; `refit`: identifying the model anew closes the gap; `unexplained`: a gap whose cause is none of the candidates.
+    /// `none`: nothing significant; `parameters`: values of what was compared are off, and nothing is missing in it; `named`: `effects` are the cause; `class`: one of `class`, which these records cannot separate; `ambiguous`: one of `class`, which `next_experiment` would separate; `shortlist`: `class` are the likeliest, none of them likely enough to be named; `refit`: identifying the model anew closes the gap; `unexplained`: a gap whose cause is none of the candidates.
     #[schemars(with = "Status")]
     pub status: String,
     /// The effects named; of a class its likeliest member.
@@ -400,7 +404,7 @@ pub fn schema() -> Schema {
 /// `held_out_error_ratio` is how many times as much (root mean square) the model errs on held-out records that were taken under other
 /// conditions than the fit records, which show nothing missing. `second_opinion` is what a verdict says
 /// that was fitted to so many diagnoses (`examples`) of rigs with known causes, null where an order is declared or an experiment was
-/// designed; `by_rules` is what the rules say before that is asked. `effects` with their probability and what each feature `adds` to the logarithm of their odds, for causes as common as `prior` says.
+/// designed, or where a `posterior` decides, which says of every cause that it knows its probability and the log-likelihood that it gains; `by_rules` is what the rules say before that is asked. `effects` with their probability and what each feature `adds` to the logarithm of their odds, for causes as common as `prior` says.
 pub fn json(report: &Report) -> String {
     let diagnosis = &report.diagnosis;
     let units = Units::of(&report.rig);
@@ -428,6 +432,7 @@ pub fn json(report: &Report) -> String {
         probability_none: diagnosis.probability_none,
         probability_unexplained: diagnosis.probability_unexplained,
         second_opinion: diagnosis.second_opinion.as_ref().map(second_opinion),
+        posterior: diagnosis.classification.as_ref().map(Posterior::of),
         limitations: diagnosis.limitations.clone(),
         version: env!("CARGO_PKG_VERSION").to_owned(),
     };

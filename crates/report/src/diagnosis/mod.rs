@@ -4,6 +4,7 @@ mod artefacts;
 mod differences;
 pub mod json;
 mod place;
+pub(crate) mod posterior;
 mod probability;
 mod sentences;
 mod why;

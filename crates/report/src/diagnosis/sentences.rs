@@ -2,6 +2,7 @@
 
 use super::place;
 use super::probability::probability;
+use switchback_diagnose::posterior::Classification;
 use switchback_diagnose::{Diagnosis, Effect, FittedParameter, Gap, Status, Verdict};
 use switchback_io::diagnosis::{Report, Source, Units, reported};
 use switchback_io::diagnosis::{digits, whole_percent, with_interval};
@@ -165,6 +166,10 @@ fn cause(diagnosis: &Diagnosis, units: &Units) -> String {
             rivals(&verdict.class, diagnosis, units),
             next_best(diagnosis)
         ),
+        Status::Shortlist => format!(
+            "Cause: none is certain enough to be named; the likeliest: {}, together {p}.",
+            ranked(diagnosis)
+        ),
         Status::Class => format!(
             "Cause: one of {}, together {p}; no record here separates them.",
             rivals(&verdict.class, diagnosis, units)
@@ -188,6 +193,16 @@ fn cause(diagnosis: &Diagnosis, units: &Units) -> String {
             format!("Cause: none of the candidates, probability {p}{stage}{best}.")
         }
     }
+}
+
+/// `backlash 0.52, then creep 0.21`, each with its probability.
+fn ranked(diagnosis: &Diagnosis) -> String {
+    let probability_of = |effect: &Effect| {
+        let causes = diagnosis.classification.iter().flat_map(|classification| &classification.causes);
+        causes.clone().find(|cause| cause.effect == Some(*effect)).map_or(0.0, |cause| cause.probability)
+    };
+    let one = |effect: &Effect| format!("{effect} ({})", probability(probability_of(effect)));
+    diagnosis.verdict.class.iter().map(one).collect::<Vec<_>>().join(", then ")
 }
 
 /// What identifying the model anew does.
@@ -220,6 +235,7 @@ fn uncalibrated(report: &Report) -> Option<String> {
         _ => true,
     };
     let reason = match (report.source, report.rig.order, report.rig.holdout_records().next()) {
+        _ if diagnosis_is_outside(report) => "they are unlike those that it was trained on",
         (Source::Given | Source::Predicted | Source::Against, ..) => "the model was given",
         (_, None, _) => "no order is declared",
         (.., None) => "no record is held out",
@@ -228,6 +244,10 @@ fn uncalibrated(report: &Report) -> Option<String> {
     (shows_one && !verdict.calibrated).then(|| {
         format!("This probability ranks and is no frequency: it was not calibrated for records like these ({reason}).")
     })
+}
+
+fn diagnosis_is_outside(report: &Report) -> bool {
+    report.diagnosis.classification.as_ref().is_some_and(Classification::is_outside)
 }
 
 /// `backlash (play 0.12 ± 0.01 V)`

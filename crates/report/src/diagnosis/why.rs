@@ -1,5 +1,6 @@
 //! Why the first candidate comes first: what each saves, by how far ahead it predicts.
 
+use super::posterior;
 use super::probability::probability;
 use super::words::LISTED;
 use switchback_diagnose::fitted::{SecondOpinion, Shares};
@@ -21,13 +22,16 @@ pub fn why(report: &Report) -> String {
     let diagnosis = &report.diagnosis;
     let listed = &diagnosis.candidates[..diagnosis.candidates.len().min(LISTED)];
     let Some(first) = listed.first() else {
-        return "\nwhy: no effect was left as a candidate\n".to_owned();
+        let posterior = diagnosis.classification.as_ref().map_or_else(String::new, posterior::words);
+        return format!("\nwhy: no effect was left as a candidate\n{posterior}");
     };
     let head = "why: share of the nominal model's mean square error on the fit records that each candidate saves, predicting so far ahead; \
                 in brackets the same in its standard errors, which come from the errors themselves";
     let sentences = [verdict(diagnosis).to_owned(), lead(first, listed.get(1)), reach(first)].concat();
     let second = diagnosis.second_opinion.as_ref().map_or_else(String::new, second);
-    format!("\n{}{}{}{second}", wrapped(head, ""), columns(&table(listed)), wrapped(sentences.trim_end(), ""))
+    let posterior = diagnosis.classification.as_ref().map_or_else(String::new, posterior::words);
+    let sentences = wrapped(sentences.trim_end(), "");
+    format!("\n{}{}{sentences}{second}{posterior}", wrapped(head, ""), columns(&table(listed)))
 }
 
 /// What a verdict fitted to rigs with known causes says, and what each feature adds to the logarithm of the odds of the likeliest effects.

@@ -1,6 +1,7 @@
 //! The candidates, and why each stands where it stands.
 
 use crate::diagnosis::json::{GapFile, Hypothesis, Pair, Parameter, SecondOpinion, Verdict};
+use crate::diagnosis::posterior::Posterior;
 use crate::diagnosis::probability;
 use crate::pages::table::{Cell, Table};
 use maud::{Markup, html};
@@ -19,6 +20,7 @@ pub(super) fn candidates(gap: &GapFile) -> Markup {
         (gains(gap))
         @if let Some(pair) = &gap.together { (together(pair)) }
         @if let Some(opinion) = &gap.second_opinion { (second(opinion)) }
+        @if let Some(posterior) = &gap.posterior { (self::posterior(posterior)) }
     }
 }
 
@@ -67,7 +69,7 @@ fn table(gap: &GapFile) -> Table {
     table
 }
 
-/// Second opinions listed; the rest is in gap.json.
+/// Causes of a second opinion or a posterior listed; the rest is in gap.json.
 const LISTED: usize = 6;
 /// Parameters of one effect that are reported one by one.
 const READABLE: usize = 6;
@@ -188,6 +190,30 @@ fn second(opinion: &SecondOpinion) -> Markup {
             "A model fitted to " (opinion.examples) " diagnoses of rigs with known causes says, with probabilities: nothing is missing "
             (probability(opinion.probability_none)) ", none of these " (probability(opinion.probability_unexplained))
             ". Rules tuned by hand say " (said(&opinion.by_rules)) "."
+        }
+        (table.html())
+    }
+}
+
+fn posterior(posterior: &Posterior) -> Markup {
+    let mut table = Table::new(
+        "What the verdict rests on: a posterior trained on rigs with known causes",
+        ["cause", "probability", "gain, nats a sample"],
+    );
+    for cause in posterior.causes.iter().take(LISTED) {
+        let gain = cause.gain.map_or("–".to_owned(), |gain| digits(gain, 3));
+        table.row([
+            Cell::word(cause.words()),
+            Cell::number(probability(cause.probability), Some(cause.probability)),
+            Cell::number(gain, cause.gain),
+        ]);
+    }
+    html! {
+        h3 { "What the verdict rests on" }
+        p {
+            "A posterior trained on " (posterior.examples) " rigs with known causes says, with probabilities: nothing is missing "
+            (probability(posterior.probability_none)) ", none of these " (probability(posterior.probability_unexplained))
+            ". The gain is that of the log-likelihood where the cause is fitted together with the model."
         }
         (table.html())
     }

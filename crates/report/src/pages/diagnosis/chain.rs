@@ -70,7 +70,9 @@ fn accused(gap: &GapFile, stage: Stage) -> Option<String> {
     let points_here = verdict.stage.as_deref() == Some(stage.name());
     match verdict.status.as_str() {
         "named" if !named.is_empty() => Some(format!("▶ the cause: {}", named.join(", "))),
-        "class" | "ambiguous" if !class.is_empty() => Some(format!("▶ possible: {}", class.join(", "))),
+        "class" | "ambiguous" | "shortlist" if !class.is_empty() => {
+            Some(format!("▶ possible: {}", class.join(", ")))
+        }
         "unexplained" if points_here => Some("▶ the gap points here".to_owned()),
         _ => None,
     }

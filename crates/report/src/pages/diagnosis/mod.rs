@@ -107,6 +107,10 @@ fn headline(gap: &GapFile) -> String {
             "The model lacks one of {}, which these records do not distinguish (probability {probability}).",
             named(&verdict.class, ", ")
         ),
+        "shortlist" => format!(
+            "No cause is certain enough to be named; the likeliest: {} (together {probability}).",
+            named(&verdict.class, ", ")
+        ),
         "ambiguous" => format!(
             "Several causes are possible: {} (probability {probability}).",
             named(&verdict.class, ", ")

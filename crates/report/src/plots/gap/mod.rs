@@ -92,6 +92,7 @@ mod tests {
             differences: None,
             verdict,
             second_opinion: None,
+            classification: None,
             gap,
             where_: vec![],
             candidates: vec![],

@@ -1,0 +1,229 @@
+//! What a posterior says of a rig.
+
+use super::decision::{Decision, Outcome, Thresholds, decide};
+use super::error::PosteriorError;
+use super::prior::Prior;
+use super::weights::Posterior;
+use crate::effect::Effect;
+use crate::evidence::Judged;
+use crate::settings::Settings;
+use crate::verdict::answer::{Status, Verdict, naming_nothing};
+
+/// A name that a cause has in the posterior, with its probability.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Cause {
+    /// The name of the effect.
+    pub name: String,
+    /// The effect, where a diagnosis can name it.
+    pub effect: Option<Effect>,
+    /// Its probability.
+    pub probability: f64,
+    /// Log-likelihood that it gains with the nominal system, both fitted, nats a sample; none where it was not fitted.
+    pub gain: Option<f64>,
+}
+
+/// Probabilities of the causes of a rig's gap, which sum to one with those that nothing is missing and that it is none of these.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Classification {
+    /// Rigs that the posterior was trained on.
+    pub rows: usize,
+    /// How common causes were taken to be.
+    pub prior: Prior,
+    /// All causes, likeliest first.
+    pub causes: Vec<Cause>,
+    /// Probability that nothing is missing.
+    pub none: f64,
+    /// Probability of a cause that has no name.
+    pub none_of_these: f64,
+    /// Share of the rigs held out in training that lie nearer to the population than this one.
+    pub novelty: f64,
+    /// From which probabilities on a cause is reported.
+    pub thresholds: Thresholds,
+}
+
+/// Share of the rigs held out in training beyond which a rig is not one of their kind.
+const OUTSIDE: f64 = 0.99;
+
+impl Classification {
+    /// Of a rig's evidence. Effects that the settings leave out, and the colour of noise where it is not asked for, are no causes.
+    ///
+    /// # Errors
+    /// [`PosteriorError`] where the posterior was trained with other columns.
+    pub(crate) fn of(
+        judged: &Judged,
+        posterior: &Posterior,
+        settings: &Settings,
+    ) -> Result<Self, PosteriorError> {
+        let named: Vec<(&str, f64)> =
+            judged.evidence.columns.iter().map(|(name, value)| (name.as_str(), *value)).collect();
+        let row = posterior.row(&named)?;
+        let mut p = posterior.probabilities(&row, Posterior::ALL)?;
+        let prior = settings.prior.map_or(posterior.prior, Prior::from);
+        for (p, name) in p.iter_mut().zip(&posterior.classes) {
+            *p *= match (name.as_str(), Effect::from_name(name)) {
+                (NOTHING, _) => prior.none / posterior.prior.none,
+                (NONE_OF_THESE, _) => prior.none_of_these / posterior.prior.none_of_these,
+                (_, Some(effect)) if settings.is_no_cause(effect) => 0.0,
+                _ => prior.effect / posterior.prior.effect,
+            };
+        }
+        let sum: f64 = p.iter().sum::<f64>().max(f64::MIN_POSITIVE);
+        let of = |wanted: &str| -> f64 {
+            posterior.classes.iter().zip(&p).filter(|(name, _)| *name == wanted).map(|(_, p)| p / sum).sum()
+        };
+        let gain = |name: &str| {
+            let fitted = judged.evidence.fits.iter().find(|fit| fit.effect == name);
+            fitted.map(|fit| fit.gain)
+        };
+        let cause = |(name, p): (&String, &f64)| Cause {
+            effect: Effect::from_name(name),
+            probability: p / sum,
+            gain: gain(name),
+            name: name.clone(),
+        };
+        let is_cause = |(name, _): &(&String, &f64)| ![NOTHING, NONE_OF_THESE].contains(&name.as_str());
+        let mut causes: Vec<Cause> = posterior.classes.iter().zip(&p).filter(is_cause).map(cause).collect();
+        causes.sort_by(|x, y| y.probability.total_cmp(&x.probability));
+        Ok(Self {
+            rows: posterior.rows,
+            prior,
+            causes,
+            none: of(NOTHING),
+            none_of_these: of(NONE_OF_THESE),
+            novelty: posterior.novelty.quantile(&row),
+            thresholds: posterior.thresholds,
+        })
+    }
+
+    /// Whether the rig is unlike those that the posterior was trained on.
+    pub fn is_outside(&self) -> bool {
+        self.novelty >= OUTSIDE
+    }
+
+    /// Effects that a diagnosis can name, likeliest first.
+    pub(crate) fn effects(&self) -> Vec<(Effect, f64)> {
+        self.causes.iter().filter_map(|cause| Some((cause.effect?, cause.probability))).collect()
+    }
+
+    /// Probability of a cause that no diagnosis can name.
+    pub(crate) fn unexplained(&self) -> f64 {
+        self.none_of_these
+            + self
+                .causes
+                .iter()
+                .filter(|cause| cause.effect.is_none())
+                .map(|cause| cause.probability)
+                .sum::<f64>()
+    }
+
+    /// The effects that are fitted: until they have that probability, and no more than so many.
+    pub(crate) fn head(&self, settings: &Settings) -> Vec<Effect> {
+        let mut mass = 0.0;
+        let mut head = Vec::new();
+        for (effect, p) in self.effects().into_iter().take(settings.most_fitted) {
+            if mass >= settings.head || p <= 0.0 {
+                break;
+            }
+            mass += p;
+            head.push(effect);
+        }
+        head
+    }
+
+    /// The verdict of least expected loss.
+    pub(crate) fn verdict(&self) -> Verdict {
+        let effects = self.effects();
+        let p: Vec<f64> = effects.iter().map(|(_, p)| *p).chain([self.none, self.unexplained()]).collect();
+        let mut outcomes = vec![Outcome::Effect; effects.len()];
+        outcomes.extend([Outcome::Nothing, Outcome::NoneOfThese]);
+        let stage = effects.first().map(|(effect, _)| effect.stage());
+        let several = |positions: &[usize]| {
+            let class: Vec<Effect> = positions.iter().map(|k| effects[*k].0).collect();
+            let alike = |one: &Effect| class.iter().any(|o| o != one && o.confounded_effects().contains(one));
+            let status = if class.iter().all(alike) { Status::Class } else { Status::Ambiguous };
+            let sum = positions.iter().map(|k| p[*k]).sum();
+            let first = class[..1].to_vec();
+            let effects = if status == Status::Class { first } else { Vec::new() };
+            Verdict { effects, class, ..naming_nothing(status, stage, sum) }
+        };
+        let verdict = match decide(&p, &outcomes, &self.thresholds, self.is_outside()) {
+            Decision::Named(k) => {
+                Verdict { effects: vec![effects[k].0], ..naming_nothing(Status::Named, stage, p[k]) }
+            }
+            Decision::Class(class) => several(&class),
+            Decision::Shortlist(list) => {
+                Verdict { status: Status::Shortlist, effects: Vec::new(), ..several(&list) }
+            }
+            Decision::None if self.none >= self.unexplained() => {
+                naming_nothing(Status::None, None, self.none)
+            }
+            Decision::None => naming_nothing(Status::Unexplained, stage, self.unexplained()),
+        };
+        Verdict { calibrated: !self.is_outside(), ..verdict }
+    }
+}
+
+const NOTHING: &str = Posterior::NOTHING;
+const NONE_OF_THESE: &str = Posterior::NONE_OF_THESE;
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn of(p: &[(&str, f64)], [none, none_of_these]: [f64; 2], novelty: f64) -> Classification {
+        let cause = |(name, probability): &(&str, f64)| Cause {
+            name: (*name).to_owned(),
+            effect: Effect::from_name(name),
+            probability: *probability,
+            gain: None,
+        };
+        Classification {
+            rows: 1,
+            prior: Prior { effect: 0.6, none: 0.2, none_of_these: 0.2 },
+            causes: p.iter().map(cause).collect(),
+            none,
+            none_of_these,
+            novelty,
+            thresholds: Thresholds::default(),
+        }
+    }
+
+    #[test]
+    fn a_sure_cause_is_named_unless_the_rig_is_of_another_kind() {
+        let sure = [("creep", 0.97), ("backlash", 0.01)];
+        let named = of(&sure, [0.01, 0.01], 0.5).verdict();
+        assert_eq!((named.status, &named.effects[..]), (Status::Named, &[Effect::Creep][..]));
+        let strange = of(&sure, [0.01, 0.01], 1.0).verdict();
+        assert_eq!((strange.status, strange.calibrated), (Status::Shortlist, false));
+        assert!(strange.effects.is_empty());
+    }
+
+    #[test]
+    fn a_class_is_confounded_rivals_are_ambiguous_and_less_is_a_shortlist() {
+        let class = of(&[("backlash", 0.5), ("gradual_transition", 0.48)], [0.01, 0.01], 0.5).verdict();
+        assert_eq!((class.status, class.class.len()), (Status::Class, 2));
+        let rivals = of(&[("backlash", 0.5), ("sensor_drift", 0.48)], [0.01, 0.01], 0.5).verdict();
+        assert_eq!((rivals.status, rivals.class.len()), (Status::Ambiguous, 2));
+        let list = of(&[("backlash", 0.5), ("creep", 0.2)], [0.2, 0.1], 0.5).verdict();
+        assert_eq!((list.status, list.class.len()), (Status::Shortlist, 2));
+        assert!((list.probability - 0.7).abs() < 1e-12);
+    }
+
+    #[test]
+    fn a_cause_without_a_law_here_counts_as_none_of_these() {
+        let strange = of(&[("inertia", 0.6), ("creep", 0.2)], [0.1, 0.1], 0.5);
+        assert!((strange.unexplained() - 0.7).abs() < 1e-12);
+        assert_eq!(strange.verdict().status, Status::Unexplained);
+        assert_eq!(of(&[("creep", 0.2)], [0.5, 0.3], 0.5).verdict().status, Status::None);
+    }
+
+    #[test]
+    fn effects_are_fitted_until_their_probability_is_nearly_all() {
+        let settings = Settings::default();
+        let few = of(&[("creep", 0.985), ("backlash", 0.01)], [0.0, 0.005], 0.5);
+        assert_eq!(few.head(&settings), [Effect::Creep]);
+        let many =
+            ["creep", "backlash", "stribeck", "extra_pole", "resonance", "gain_drift"].map(|n| (n, 0.1));
+        assert_eq!(of(&many, [0.2, 0.2], 0.5).head(&settings).len(), settings.most_fitted);
+    }
+}
