@@ -15,7 +15,7 @@ fn refused(folder: &Folder, words: &[&str]) -> String {
 fn parts_of_a_table_are_its_rows_and_what_is_trained_on_them_decides() {
     let folder = Folder::with_good_rig();
     let drawn = |words: &[&str], out: &str| {
-        let all = [&["train", "--draw", "6", "--seed", "3", "--out", out, "--quiet"], words].concat();
+        let all = [&["train", "--draw", "9", "--seed", "3", "--out", out, "--quiet"], words].concat();
         let output = folder.switchback(&all).output().expect("it runs");
         assert_eq!(output.status.code(), Some(0), "{}", String::from_utf8_lossy(&output.stderr));
         fs::read_to_string(folder.path(out)).expect("a table")

@@ -89,6 +89,8 @@ pub(crate) fn run(args: &Args) -> CommandResult {
                 table.columns.len()
             );
             let fitted = args.threads.install(|| fit(&table, &LearningSettings::default(), &provenance))?;
+            let place = args.tables.first().map_or_else(String::new, |place| place.display().to_string());
+            let fitted = fitted.map_err(|source| TableProblem::Bad { place, source })?;
             args.output.quiet.describe(&summary(&fitted))?;
             fitted.posterior.write()
         }

@@ -9,7 +9,7 @@ use super::novelty::learn_novelty;
 use super::ranker::train_ranker;
 use super::second_stage::{second_stage, validated};
 use super::settings::LearningSettings;
-use super::table::Table;
+use super::table::{Table, TableError};
 use super::thresholds::{fit_thresholds, outcomes};
 use rayon::prelude::*;
 use switchback_diagnose::posterior::{
@@ -82,8 +82,14 @@ pub struct Fitted {
 }
 
 /// Learns a posterior: the models on all rows; their shares, temperatures and the thresholds on rows that were held out.
-pub fn fit(table: &Table, settings: &LearningSettings, provenance: &str) -> Fitted {
+///
+/// # Errors
+/// [`TableError::NotHeldOut`] where no row can be.
+pub fn fit(table: &Table, settings: &LearningSettings, provenance: &str) -> Result<Fitted, TableError> {
     let (rows, held_out) = out_of_fold(table, settings);
+    if rows.is_empty() {
+        return Err(TableError::NotHeldOut { rows: table.rows() });
+    }
     let judged = table.of_rows(&rows);
     let found = shares(&held_out, &judged.labels, &judged.weights);
     let first = mixed(&held_out, &found);
@@ -130,7 +136,7 @@ pub fn fit(table: &Table, settings: &LearningSettings, provenance: &str) -> Fitt
         network: Some(models.network),
         ranker: models.ranker,
     };
-    Fitted { posterior, judged, probabilities, loss }
+    Ok(Fitted { posterior, judged, probabilities, loss })
 }
 
 /// The thresholds of least loss on rows of measured bases; on all rows where there are none.

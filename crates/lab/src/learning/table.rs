@@ -74,6 +74,14 @@ pub enum TableError {
         /// What is wrong.
         what: String,
     },
+    /// No row can be judged by models that have learnt neither its base nor its law.
+    #[error(
+        "of {rows} rows none can be held out by its base and its law; some hundred rows are the least, ten thousand are better"
+    )]
+    NotHeldOut {
+        /// Rows.
+        rows: usize,
+    },
     /// Fewer than two classes, or no row at all.
     #[error(
         "a table of {rows} rows in {classes} classes teaches nothing; it needs rows of two classes at least"

@@ -67,10 +67,13 @@ fn small() -> LearningSettings {
 #[test]
 fn a_small_posterior_has_the_same_bytes_every_time_and_says_the_same_when_it_is_read() {
     let table = table(240, 3);
-    let one = fit(&table, &small(), "a test").posterior;
+    let one = fit(&table, &small(), "a test").expect("enough rows").posterior;
     let bytes = one.write();
     let serial = rayon::ThreadPoolBuilder::new().num_threads(1).build().expect("a pool");
-    assert_eq!(bytes, serial.install(|| fit(&table, &small(), "a test")).posterior.write());
+    assert_eq!(
+        bytes,
+        serial.install(|| fit(&table, &small(), "a test")).expect("enough rows").posterior.write()
+    );
     assert_eq!(&sha256(&bytes)[..16], "5a03cd2641b5afa5");
     let read = Posterior::read(&bytes).expect("a posterior");
     assert_eq!(read, one);
@@ -91,7 +94,7 @@ fn a_small_posterior_has_the_same_bytes_every_time_and_says_the_same_when_it_is_
 
 #[test]
 fn what_is_no_posterior_and_columns_that_do_not_fit_are_refused() {
-    let one = fit(&table(80, 3), &small(), "a test").posterior;
+    let one = fit(&table(80, 3), &small(), "a test").expect("enough rows").posterior;
     let bytes = one.write();
     assert_eq!(Posterior::read(b"PK\x03\x04").expect_err("refused"), PosteriorError::NoPosterior);
     for end in (8..bytes.len()).step_by(97) {
@@ -157,6 +160,12 @@ fn a_cell_that_is_no_number_is_named() {
     );
     assert!(bad("a,1,f,l,b,2,one,no,,1\n").contains("1 rows in 1 classes"));
     assert!(matches!(Table::from_csv("label,x\n"), Err(TableError::Header("weight"))));
+}
+
+#[test]
+fn a_table_of_which_nothing_can_be_held_out_is_refused() {
+    let few = table(240, 3).of_rows(&[0, 1]);
+    assert_eq!(fit(&few, &small(), "a test").expect_err("refused"), TableError::NotHeldOut { rows: 2 });
 }
 
 #[test]
