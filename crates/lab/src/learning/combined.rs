@@ -148,7 +148,14 @@ fn thresholds(judged: &Table, p: &[Vec<f64>]) -> (Thresholds, f64) {
         chosen = rows().collect();
     }
     let p: Vec<Vec<f64>> = chosen.iter().map(|row| p[*row].clone()).collect();
-    fit_thresholds(&p, &judged.of_rows(&chosen).labels, &outcomes(&judged.classes), &Losses::default())
+    let labels = judged.of_rows(&chosen).labels;
+    let (found, loss) = fit_thresholds(&p, &labels, &outcomes(&judged.classes), &Losses::default());
+    (Thresholds { named: single(found.named), class: single(found.class), ..found }, loss)
+}
+
+/// In the precision of the file.
+fn single(x: f64) -> f64 {
+    f64::from(x as f32)
 }
 
 /// Shares of the rows by what is wrong with them.
@@ -156,7 +163,7 @@ fn prior(table: &Table) -> Prior {
     let outcomes = outcomes(&table.classes);
     let share = |outcome: Outcome| {
         let count = table.labels.iter().filter(|label| outcomes[**label] == outcome).count();
-        count as f64 / table.rows().max(1) as f64
+        single(count as f64 / table.rows().max(1) as f64)
     };
     Prior {
         effect: share(Outcome::Effect),
