@@ -229,7 +229,12 @@ mod tests {
             let all = Quantity::coordinates(&begin);
             let (knots, fresh): (Vec<Quantity>, Vec<Quantity>) =
                 all.iter().partition(|q| matches!(q, Quantity::Knot(_)));
-            let (_, slow) = fit(&begin, &all, &stretches, (&criterion, &scale), Effort::FINAL);
+            // The deviance is not smooth in a play: from one start alone the full method may end beside the minimum.
+            let slow = [truth, start].map(|play| {
+                let from = machine(play);
+                fit(&from, &all, &stretches, (&criterion, &scale), Effort::FINAL).1
+            });
+            let slow = slow[0].min(slow[1]);
             let chord = Chord::of(&begin, &knots, &stretches, (&criterion, &scale));
             let (_, fast) = chord.fit(&begin, &fresh, Effort::FINAL);
             assert!((fast - slow).abs() < 2e-3 * slow, "{truth}: {fast} {slow}");
