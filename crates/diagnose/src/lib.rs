@@ -105,6 +105,7 @@ mod workers;
 
 pub use comparison::Compared;
 pub use comparison::Comparison;
+pub use diagnose::classify;
 pub use diagnose::diagnose;
 pub use diagnose::diagnose_with;
 pub use diagnosis::Candidate;

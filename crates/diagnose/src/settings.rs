@@ -25,7 +25,8 @@ pub struct Settings {
     /// How common causes are where the records were taken; that of the rigs which the fitted verdict or the posterior knows, if not given. Counts
     /// where one of these is asked: in records that nobody designed.
     pub prior: Option<Shares>,
-    /// The posterior that decides on records that nobody designed; if not given, rules and the fitted verdict do.
+    /// The posterior that decides on records that nobody designed; if not given, rules and the fitted verdict do, and the built-in posterior where these
+    /// show none of the candidates.
     pub posterior: Option<Arc<Posterior>>,
     /// Probability up to which its likeliest effects are fitted, and most of these.
     pub head: f64,

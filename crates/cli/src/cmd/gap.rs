@@ -60,7 +60,7 @@ pub(crate) struct Args {
     #[arg(long, value_name = "SHARES", value_parser = prior)]
     prior: Option<Shares>,
 
-    /// Let this posterior decide on records that nobody designed, as `switchback train` trains it [default: rules, and a verdict fitted to diagnoses]
+    /// Let this posterior decide on records that nobody designed, as `switchback train` trains it [default: rules and a verdict fitted to diagnoses; where these show none of the candidates, the one built in]
     #[arg(long, value_name = "POSTERIOR.bin")]
     posterior: Option<PathBuf>,
 

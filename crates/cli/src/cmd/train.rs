@@ -30,15 +30,15 @@ pub(crate) struct Args {
     draw: Option<u64>,
 
     /// Only one part of the rigs that are drawn: K of N
-    #[arg(long, value_name = "K/N", requires = "draw")]
+    #[arg(long, value_name = "K/N", conflicts_with = "tables")]
     shard: Option<Shard>,
 
     /// Seed of the population
-    #[arg(long, value_name = "SEED", default_value_t = 1, requires = "draw")]
+    #[arg(long, value_name = "SEED", default_value_t = 1, conflicts_with = "tables")]
     seed: u64,
 
     /// Folder of measured rigs, half of the rigs drawn stand on these [default: none, made rigs only]
-    #[arg(long, value_name = "RIGS", requires = "draw")]
+    #[arg(long, value_name = "RIGS", conflicts_with = "tables")]
     measured: Option<PathBuf>,
 
     /// The posterior, or the table, goes into this file.

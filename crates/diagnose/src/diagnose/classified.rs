@@ -24,6 +24,20 @@ use switchback_model::rig::Rig;
 pub(super) const OUTSIDE: &str = "the records are unlike those that the posterior was trained on: farther from these than 99 of 100 rigs that were held out; its \
                                   probabilities only rank, and nothing is named";
 
+/// What a posterior says of a rig by itself, where it may decide.
+pub(super) fn classification(
+    rig: &Rig,
+    (records, settings): (&Dataset, &Settings),
+    posterior: &Posterior,
+) -> Result<Option<Classification>, DiagnoseError> {
+    let is_asked = settings.asked.iter().any(|effect| effect.card().colours_noise);
+    if rig.order.is_some() || records.is_designed() || is_asked {
+        return Ok(None);
+    }
+    let Ok(Some(judged)) = Judged::identified(rig) else { return Ok(None) };
+    Ok(Some(Classification::of(&judged, posterior, settings)?))
+}
+
 /// The diagnosis of a rig by itself; none where its records show no nominal system, or one that leaves nothing.
 pub(super) fn classified(
     workers: &impl Workers,
@@ -31,8 +45,7 @@ pub(super) fn classified(
     (records, settings): (&Dataset, &Settings),
     posterior: &Posterior,
 ) -> Result<Option<Diagnosis>, DiagnoseError> {
-    let Ok(Some(judged)) = Judged::identified(rig) else { return Ok(None) };
-    let classification = Classification::of(&judged, posterior, settings)?;
+    let Some(classification) = classification(rig, (records, settings), posterior)? else { return Ok(None) };
     let head = classification.head(settings);
     let chosen = match structure(workers, records.clone(), None, settings)? {
         Choice::One(chosen) => chosen,

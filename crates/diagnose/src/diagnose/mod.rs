@@ -27,6 +27,7 @@ use crate::diagnosis::Diagnosis;
 use crate::error::DiagnoseError;
 use crate::nominal::order::{Choice, Chosen, declared, of_structure, structure};
 use crate::phase::Phase;
+use crate::posterior::{Classification, Posterior};
 use crate::records::dataset::Dataset;
 use crate::settings::{Model, Settings};
 use crate::verdict::answer::Status;
@@ -36,7 +37,8 @@ use crate::workers::{Serial, Workers};
 ///
 /// Identifies (or takes) the nominal model, fits every effect of the library together with it, ranks them by penalised
 /// likelihood, tests what the best leaves, and measures how far it closes the gap on the held-out records. Where nobody designed the records
-/// and no order is declared, a trained [posterior](crate::posterior) decides, if the settings have one, and the effects that it finds likely are fitted.
+/// and no order is declared, a trained [posterior](crate::posterior) decides, if the settings have one, and the effects that it finds likely are fitted;
+/// without one the [built-in](Posterior::built_in) posterior is asked where rules show none of the candidates.
 ///
 /// # Errors
 /// [`DiagnoseError`] where nothing can be judged; what can be judged only in part becomes a
@@ -61,20 +63,46 @@ pub fn diagnose_with(
     workers.begin(Phase::Nominal);
     let records = Dataset::new(rig)?;
     let declared = declared(rig, &model)?;
-    let is_asked = settings.asked.iter().any(|effect| effect.card().colours_noise);
-    if declared.is_none()
-        && !records.is_designed()
-        && !is_asked
-        && let Some(posterior) = &settings.posterior
+    if let Some(posterior) = &settings.posterior
         && let Some(diagnosis) = classified::classified(workers, rig, (&records, settings), posterior)?
     {
         return Ok(diagnosis);
     }
-    let plan = |chosen: Chosen| Plan::new(rig, &model, settings, chosen);
+    let by_rules = by_rules(workers, rig, (&records, settings), declared)?;
+    let is_silent =
+        by_rules.verdict.status == Status::Unexplained && by_rules.verdict.held_out_error_ratio.is_none();
+    if settings.posterior.is_some() || !is_silent {
+        return Ok(by_rules);
+    }
+    let posterior = Posterior::built_in();
+    let by_posterior = classified::classified(workers, rig, (&records, settings), posterior)?;
+    Ok(by_posterior.filter(|diagnosis| diagnosis.verdict.lists()).unwrap_or(by_rules))
+}
+
+/// The probabilities of all causes of a rig by itself, without any repair; none where the settings have no posterior or rules decide: an experiment was
+/// designed, an order is declared, the colour of noise is asked for, or the records show no nominal system.
+///
+/// # Errors
+/// As [`diagnose`].
+pub fn classify(rig: &Rig, settings: &Settings) -> Result<Option<Classification>, DiagnoseError> {
+    match &settings.posterior {
+        Some(posterior) => classified::classification(rig, (&Dataset::new(rig)?, settings), posterior),
+        None => Ok(None),
+    }
+}
+
+/// The diagnosis by fits of every effect and by rules.
+fn by_rules(
+    workers: &impl Workers,
+    rig: &Rig,
+    (records, settings): (&Dataset, &Settings),
+    declared: Option<usize>,
+) -> Result<Diagnosis, DiagnoseError> {
+    let plan = |chosen: Chosen| Plan::new(rig, &Model::Identify, settings, chosen);
     let chosen = structure(workers, records.clone(), declared, settings)?;
     let (mut reported, others) = analyse(workers, chosen, &plan)?;
     if declared.is_none() {
-        reported = with_room_for_dynamics(workers, reported, (&records, &plan))?;
+        reported = with_room_for_dynamics(workers, reported, (records, &plan))?;
     }
     Ok(Analyses::new(workers, reported, others).report(workers))
 }

@@ -51,8 +51,9 @@ pub(super) fn compared(
     let plan = Plan::new(&rig, &model, &Settings { effects: Vec::new(), ..settings.clone() }, chosen)?;
     workers.begin(Phase::Report);
     let diagnosis = report(plan, &rig, differences);
-    match (diagnosis.verdict.status, &diagnosis.differences, &settings.posterior) {
-        (Status::Unexplained, Some(found), Some(posterior)) => {
+    match (diagnosis.verdict.status, &diagnosis.differences) {
+        (Status::Unexplained, Some(found)) => {
+            let posterior = settings.posterior.as_deref().unwrap_or_else(|| Posterior::built_in());
             let aligned: Vec<Vec<f64>> = found.runs.iter().map(|[_, aligned]| aligned.clone()).collect();
             let classified = classified_beside(&rig, &aligned, (posterior, settings))?;
             Ok(with(diagnosis, classified))
@@ -279,7 +280,7 @@ fn verdict(plan: &Plan, found: &Differences, other: &Other) -> Verdict {
         let verdict = naming_nothing(Status::Named, Some(first.stage()), probability);
         return Verdict { effects: essential, ..verdict };
     }
-    let effects: Vec<Effect> = missing.iter().take(MOST_NAMED).map(|(effect, _)| *effect).collect();
+    let effects = acting(&missing);
     match (differs, effects.first()) {
         (false, _) if explains => naming_nothing(Status::None, None, 1.0 - most_probable_change(found)),
         (true, None) if explains => naming_nothing(Status::Parameters, None, probability),
@@ -289,6 +290,13 @@ fn verdict(plan: &Plan, found: &Differences, other: &Other) -> Verdict {
         },
         _ => naming_nothing(Status::Unexplained, None, 1.0),
     }
+}
+
+/// The first of the effects missing, and those behind it without which more of the gap would stay than beside a cause by itself.
+fn acting(missing: &[(Effect, &crate::differences::Row)]) -> Vec<Effect> {
+    let acts = |number: usize, closure: f64| number == 0 || closure > 1.0 - ESSENTIAL;
+    let acting = missing.iter().enumerate().filter(|(number, (_, row))| acts(*number, row.closure));
+    acting.map(|(_, (effect, _))| *effect).take(MOST_NAMED).collect()
 }
 
 /// Share of the gap that must stay without an effect for it to be the cause by itself: nine tenths.

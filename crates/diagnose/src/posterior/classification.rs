@@ -101,12 +101,12 @@ impl Classification {
     }
 
     /// Effects that a diagnosis can name, likeliest first.
-    pub(crate) fn effects(&self) -> Vec<(Effect, f64)> {
+    pub fn effects(&self) -> Vec<(Effect, f64)> {
         self.causes.iter().filter_map(|cause| Some((cause.effect?, cause.probability))).collect()
     }
 
     /// Probability of a cause that no diagnosis can name.
-    pub(crate) fn unexplained(&self) -> f64 {
+    pub fn unexplained(&self) -> f64 {
         self.none_of_these
             + self
                 .causes
@@ -131,7 +131,7 @@ impl Classification {
     }
 
     /// The verdict of least expected loss.
-    pub(crate) fn verdict(&self) -> Verdict {
+    pub fn verdict(&self) -> Verdict {
         let effects = self.effects();
         let p: Vec<f64> = effects.iter().map(|(_, p)| *p).chain([self.none, self.unexplained()]).collect();
         let mut outcomes = vec![Outcome::Effect; effects.len()];

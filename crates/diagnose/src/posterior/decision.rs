@@ -57,7 +57,7 @@ pub enum Decision {
     Named(usize),
     /// One of these, which nothing separates.
     Class(Vec<usize>),
-    /// Nothing can be named; these come first.
+    /// Nothing can be named; these come first, and together are likelier than that nothing is wrong, and than anything without a name.
     Shortlist(Vec<usize>),
     /// No effect: nothing is wrong, or what is wrong is none of the effects.
     None,
@@ -69,10 +69,11 @@ pub enum Decision {
 pub fn decide(p: &[f64], outcomes: &[Outcome], thresholds: &Thresholds, is_outside: bool) -> Decision {
     let mut order: Vec<usize> = (0..p.len()).collect();
     order.sort_by(|i, j| p[*j].total_cmp(&p[*i]).then(i.cmp(j)));
-    if order.first().is_none_or(|first| outcomes[*first] != Outcome::Effect) {
+    let (effects, others): (Vec<usize>, Vec<usize>) =
+        order.into_iter().partition(|i| outcomes[*i] == Outcome::Effect);
+    if effects.is_empty() {
         return Decision::None;
     }
-    let effects: Vec<usize> = order.into_iter().filter(|i| outcomes[*i] == Outcome::Effect).collect();
     if !is_outside && p[effects[0]] >= thresholds.named {
         return Decision::Named(effects[0]);
     }
@@ -81,7 +82,9 @@ pub fn decide(p: &[f64], outcomes: &[Outcome], thresholds: &Thresholds, is_outsi
     }
     let likely = effects.iter().copied().filter(|i| p[*i] >= thresholds.shortlist);
     let shortlist: Vec<usize> = likely.take(thresholds.most).collect();
-    if shortlist.is_empty() { Decision::None } else { Decision::Shortlist(shortlist) }
+    let listed: f64 = shortlist.iter().map(|i| p[*i]).sum();
+    let is_led = others.first().is_some_and(|other| p[*other] >= listed);
+    if shortlist.is_empty() || is_led { Decision::None } else { Decision::Shortlist(shortlist) }
 }
 
 /// The fewest effects that together reach the threshold.

@@ -4,6 +4,7 @@
 //! probabilities are a weighted geometric mean of [boosted trees](Trees), a [network](Network) and a [ranker](Ranker), which a
 //! [second stage](SecondStage) joins with the likelihood of fits, raised to a power that was fitted to a population. [`Novelty`] is the distance of a row from the training population, [`decide`] gives the report.
 
+mod built_in;
 mod bytes;
 mod classification;
 mod decision;

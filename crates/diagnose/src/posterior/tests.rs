@@ -12,8 +12,9 @@ fn sure_is_named_two_together_are_a_class_and_the_rest_is_a_shortlist() {
     assert_eq!(report([0.01, 0.97, 0.01, 0.005, 0.005], true), Decision::Shortlist(vec![1]));
     assert_eq!(report([0.57, 0.005, 0.41, 0.005, 0.01], false), Decision::Class(vec![0, 2]));
     assert_eq!(report([0.5, 0.1, 0.2, 0.1, 0.1], false), Decision::Shortlist(vec![0, 2, 1]));
-    assert_eq!(report([0.2, 0.1, 0.2, 0.3, 0.2], false), Decision::None);
-    assert_eq!(report([0.2, 0.1, 0.2, 0.1, 0.4], false), Decision::None);
+    assert_eq!(report([0.2, 0.1, 0.2, 0.3, 0.2], false), Decision::Shortlist(vec![0, 2, 1]));
+    assert_eq!(report([0.1, 0.1, 0.1, 0.4, 0.3], false), Decision::None);
+    assert_eq!(report([0.2, 0.1, 0.1, 0.1, 0.5], false), Decision::None);
     assert_eq!(decide(&[], &[], &limits, false), Decision::None);
 }
 

@@ -7,7 +7,7 @@ use crate::examination::{Reply, WIDEST_CLASS};
 pub enum Answer {
     /// The effect is named.
     Named,
-    /// It stands in a class of at most three.
+    /// It stands in a class or a shortlist of at most three.
     InClass,
     /// Something else is said, in a few words.
     Other(String),
@@ -16,10 +16,12 @@ pub enum Answer {
 impl Answer {
     /// What a reply is worth to an effect.
     pub(crate) fn of(reply: &Reply, effect: &str) -> Self {
-        let said = reply.said();
+        let said = reply.listed();
         match reply.status {
             "named" if said.contains(&effect) => Self::Named,
-            "class" | "ambiguous" if said.contains(&effect) && said.len() <= WIDEST_CLASS => Self::InClass,
+            "class" | "ambiguous" | "shortlist" if said.contains(&effect) && said.len() <= WIDEST_CLASS => {
+                Self::InClass
+            }
             _ => Self::Other(reported(reply)),
         }
     }
@@ -36,10 +38,10 @@ fn reported(reply: &Reply) -> String {
         "refit" => "other parameters".to_owned(),
         "unexplained" => "none of these".to_owned(),
         "named" => reply.said().join(" with "),
-        "class" | "ambiguous" if reply.said().len() > WIDEST_CLASS => {
-            format!("one of {} effects", reply.said().len())
+        "class" | "ambiguous" | "shortlist" if reply.listed().len() > WIDEST_CLASS => {
+            format!("one of {} effects", reply.listed().len())
         }
-        "class" | "ambiguous" => reply.said().join(" or "),
+        "class" | "ambiguous" | "shortlist" => reply.listed().join(" or "),
         _ => "no diagnosis".to_owned(),
     }
 }
@@ -60,6 +62,7 @@ mod tests {
         assert_eq!(of("named", &["creep", "backlash"]), Answer::Named);
         assert_eq!(of("class", &["backlash", "creep", "stribeck"]), Answer::InClass);
         assert_eq!(of("ambiguous", &["creep", "backlash"]), Answer::InClass);
+        assert_eq!(of("shortlist", &["backlash", "creep"]), Answer::InClass);
         let wide = of("class", &["backlash", "creep", "stribeck", "resonance"]);
         assert_eq!(wide, Answer::Other("one of 4 effects".to_owned()));
         assert_eq!(of("named", &["backlash"]), Answer::Other("backlash".to_owned()));

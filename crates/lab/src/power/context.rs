@@ -4,7 +4,7 @@ use super::{Answer, PowerError};
 use crate::examination::field::{resampled, runs_of};
 use crate::examination::{Reply, law, scramble};
 use crate::generate::{InjectedFault, InjectedRig, InjectionContext, OBSERVABLE, Precision, RequestedFault};
-use switchback_diagnose::Settings;
+use switchback_diagnose::{Settings, classify};
 use switchback_io::diagnosis::{self, DiagnosisError, GivenModel, Source, Subject, SubjectError};
 use switchback_model::rig::Rig;
 
@@ -81,7 +81,13 @@ impl<'a> Context<'a> {
         drawn.map_err(|error| error.to_string())
     }
 
+    /// What a diagnosis says; no repair is fitted where a posterior decides.
     fn diagnosed(&self, rig: Rig) -> Result<Reply, PowerError> {
+        if self.model.is_none()
+            && let Ok(Some(classification)) = classify(&rig, &self.settings)
+        {
+            return Ok(Reply::classified(&classification));
+        }
         let subject: Result<Subject, SubjectError> = match &self.model {
             Some(model) => model.meet(rig, Vec::new()),
             None => Subject::choose(rig, None),

@@ -43,14 +43,14 @@ pub enum Outcome {
 pub(crate) struct Answers {
     /// By its name.
     pub named: usize,
-    /// In a class.
+    /// In a class or a shortlist.
     pub in_class: usize,
     /// All draws that were diagnosed.
     pub of: usize,
 }
 
 impl Answers {
-    /// By name or in a class.
+    /// By name, or in a class or a shortlist.
     pub(crate) fn found(self) -> usize {
         self.named + self.in_class
     }
@@ -67,7 +67,7 @@ impl Finding {
             beyond_reached: staircase.beyond(reached),
             found_next: staircase.predicted(reached),
             found_at_most: staircase.found_at_most(reached),
-            without_fault: bare.iter().filter(|reply| reply.said().contains(&search.effect)).count(),
+            without_fault: bare.iter().filter(|reply| reply.listed().contains(&search.effect)).count(),
         }
     }
 

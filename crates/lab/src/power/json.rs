@@ -65,7 +65,7 @@ struct EffectPower<'a> {
     effect: &'static str,
     /// The fault whose size is closest to `size`, in the rig's units.
     example: Option<Example>,
-    /// Faults that were named, and in a class of at most three effects.
+    /// Faults that were named, and in a class or shortlist of at most three effects.
     found: Counts,
     /// Share found there, with a probability of 0.95.
     #[schemars(range(min = 0, max = 1))]
@@ -107,7 +107,7 @@ struct Example {
 /// Faults that were diagnosed.
 #[derive(Serialize, JsonSchema)]
 struct Counts {
-    /// Those in a class.
+    /// Those in a class or a shortlist.
     class: usize,
     /// Those named.
     named: usize,
@@ -167,7 +167,7 @@ pub fn schema() -> Schema {
 /// The object that `gap --power --json` prints, with a newline at its end.
 pub fn json(power: &Power, context: &Context<'_>) -> String {
     let units = Units::of(context.rig());
-    let reported = power.bare.iter().filter(|reply| !reply.said().is_empty()).count();
+    let reported = power.bare.iter().filter(|reply| !reply.listed().is_empty()).count();
     let found = Found {
         draws: power.plan.draws,
         effects: power.findings.iter().map(|finding| effect(finding, &units)).collect(),

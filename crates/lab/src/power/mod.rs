@@ -10,7 +10,7 @@
 //! diagnosed ("what has changed?"), else that identified from the fit records. The size of a fault is the maker's: root mean square of what
 //! survives identification anew over what the model leaves on held-out records without the fault.
 //!
-//! A fault is *found* where its effect is named, or stands in a class of at most three. Sizes are chosen by a [`Staircase`], one an
+//! A fault is *found* where its effect is named, or stands in a class or a shortlist of at most three. Sizes are chosen by a [`Staircase`], one an
 //! effect. All effects have a draw in each round; one that is settled leaves its draws to the others. A budget counts draws, never time: findings
 //! depend on records, options and seed alone.
 

@@ -33,7 +33,7 @@ pub fn measure(
     progress.planned(plan.diagnoses() as u64);
     let bare = without_fault(context, plan, progress, started)?;
     let guess = |effect: &&'static str| {
-        let reported = bare.iter().filter(|reply| reply.said().contains(effect)).count();
+        let reported = bare.iter().filter(|reply| reply.listed().contains(effect)).count();
         // Below the share that is sought; an effect that is reported so often is reported as such.
         ((reported as f64 + GUESS) / (bare.len() as f64 + 1.0)).min(0.8)
     };

@@ -16,7 +16,7 @@ pub fn words(power: &Power, context: &Context<'_>) -> String {
     let mut page = format!("{}\n\n", context.rig().name);
     page.push_str(&table(power));
     page.push_str(&wrapped(
-        "found of put in, by size; `no fault`: reported where there is none. Found: named, or in a class of at most three effects.",
+        "found of put in, by size; `no fault`: reported where there is none. Found: named, or in a class or shortlist of at most three effects.",
         "",
     ));
     page.push('\n');
@@ -94,7 +94,7 @@ fn sentence(finding: &Finding, units: &Units) -> String {
         )),
         Outcome::NotInjected(reason) => return format!("cannot be planted: {reason}"),
     }
-    parts.push(format!("named in {}, in a class in {} of {}", all.named, all.in_class, all.of));
+    parts.push(format!("named in {}, in a class or shortlist in {} of {}", all.named, all.in_class, all.of));
     if let Some((answer, count)) = finding.instead() {
         parts.push(format!(
             "missed, the commonest answer was: {answer} ({count} of {})",

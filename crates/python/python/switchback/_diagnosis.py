@@ -249,7 +249,8 @@ def diagnose(
         How common it is, on machines like yours, that nothing is missing, and that the cause is none of the effects, e.g.
         ``{"none": 0.2, "unexplained": 0.1}``: for records that nobody designed.
     posterior
-        Decide by this posterior, a file that ``switchback calibrate`` has trained, on records that nobody designed; else by the one built in.
+        Decide by this posterior, a file that ``switchback train`` has trained, on records that nobody designed; else rules decide, and the one built in
+        where these show none of the candidates.
     threads, progress
         As in :func:`identify`.
 

@@ -44,12 +44,12 @@ fn confusion(asked: &[Asked<'_>]) -> Confusion {
             ("named", [effect]) => *effect,
             ("named", [_, ..]) => "several",
             (status @ ("class" | "ambiguous"), [_, ..]) => status,
-            (status @ ("refit" | "unexplained" | "failed"), _) => status,
+            (status @ ("refit" | "shortlist" | "unexplained" | "failed"), _) => status,
             _ => "none",
         };
         Some((truth, said))
     };
     let judged = asked.iter().filter(|a| a.rating().is_some());
-    let rest = ["several", "class", "ambiguous", "none", "refit", "unexplained", "failed"];
+    let rest = ["several", "class", "ambiguous", "none", "refit", "shortlist", "unexplained", "failed"];
     Confusion::of(judged.filter_map(|one| answer(&one)), &rest)
 }
