@@ -1,6 +1,7 @@
 //! What a diagnosis said, and on what evidence, as plain data that lasts.
 
 use serde::{Deserialize, Serialize};
+use switchback_diagnose::posterior::Classification;
 use switchback_diagnose::{Compared, Diagnosis, Effect, Status, Together, Verdict};
 
 /// What a diagnosis said, in the words of its JSON.
@@ -53,20 +54,20 @@ impl Reply {
         Some(Self::reported(rules, top))
     }
 
+    /// What a posterior says.
+    pub(crate) fn classified(c: &Classification) -> Self {
+        Self::reported(&c.verdict(), likeliest(c.effects(), [c.none, c.unexplained()]))
+    }
+
     fn top(d: &Diagnosis) -> (&'static str, f64) {
-        let rest = [("none", d.probability_none), ("unexplained", d.probability_unexplained)];
-        let fitted = d.candidates.iter().map(|c| (c.effect, c.probability));
-        let effects: Vec<(Effect, f64)> = match &d.classification {
-            Some(classification) => {
-                classification.causes.iter().filter_map(|c| Some((c.effect?, c.probability))).collect()
-            }
-            None => fitted.collect(),
-        };
-        effects
-            .into_iter()
-            .map(|(effect, p)| (effect.name(), p))
-            .chain(rest)
-            .fold(("failed", 0.0), |best, x| if x.1 > best.1 { x } else { best })
+        let fitted = || d.candidates.iter().map(|c| (c.effect, c.probability)).collect();
+        let effects = d.classification.as_ref().map_or_else(fitted, Classification::effects);
+        likeliest(effects, [d.probability_none, d.probability_unexplained])
+    }
+
+    /// The effects that it lists, whether or not it points at them.
+    pub(crate) fn listed(&self) -> &[&'static str] {
+        if self.status == "shortlist" { &self.class } else { self.said() }
     }
 
     /// A verdict, with the likeliest candidate.
@@ -81,6 +82,12 @@ impl Reply {
             top,
         }
     }
+}
+
+fn likeliest(effects: Vec<(Effect, f64)>, [none, unexplained]: [f64; 2]) -> (&'static str, f64) {
+    let rest = [("none", none), ("unexplained", unexplained)];
+    let all = effects.iter().map(|(effect, p)| (effect.name(), *p)).chain(rest);
+    all.fold(("failed", 0.0), |best, x| if x.1 > best.1 { x } else { best })
 }
 
 /// What the fits left and gained.

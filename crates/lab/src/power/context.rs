@@ -81,11 +81,9 @@ impl<'a> Context<'a> {
         drawn.map_err(|error| error.to_string())
     }
 
-    /// What a diagnosis says; no repair is fitted where a posterior decides.
     fn diagnosed(&self, rig: Rig) -> Result<Reply, PowerError> {
-        if self.model.is_none()
-            && let Ok(Some(classification)) = classify(&rig, &self.settings)
-        {
+        let classified = classify(&rig, &self.settings).ok().flatten();
+        if let Some(classification) = classified.filter(|_| self.model.is_none()) {
             return Ok(Reply::classified(&classification));
         }
         let subject: Result<Subject, SubjectError> = match &self.model {
@@ -111,8 +109,7 @@ impl<'a> Context<'a> {
             Ok(injected) => injected,
             Err(reason) => return Draw::Refused(reason),
         };
-        let is_finite = [fault.magnitude, fault.size, fault.raw].iter().all(|x| x.is_finite());
-        if !is_finite {
+        if ![fault.magnitude, fault.size, fault.raw].iter().all(|x| x.is_finite()) {
             return Draw::Refused("no model can be identified with the fault".to_owned());
         }
         // Where ½ is asked for, a little less is reached as often as a little more.
