@@ -243,7 +243,8 @@ pub struct Diagnosis {
     pub differences: Option<Differences>,
     /// What a verdict fitted to rigs with known causes says, where nobody designed the records, no order is declared, and no posterior decides.
     pub second_opinion: Option<SecondOpinion>,
-    /// What the posterior says, where one was given and asked: nobody designed the records and no order is declared, or an aligned source leaves more than the noise.
+    /// What the posterior says, where it was asked: nobody designed the records, no order is declared, and it decides or rules show no candidate; or no few
+    /// differences align a source.
     pub classification: Option<Classification>,
     /// How large the gap is and how far it closes.
     pub gap: Gap,

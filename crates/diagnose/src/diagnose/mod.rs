@@ -10,6 +10,7 @@ mod exact;
 mod given_model;
 mod held_out;
 mod judged;
+mod missing;
 mod nominal;
 mod other_conditions;
 mod parameters;

@@ -9,10 +9,11 @@ use switchback_model::system::{Borders, LinearPart, Sensor, System};
 
 use super::classified::OUTSIDE;
 use super::given_model::GivenModel;
+use super::missing::{ESSENTIAL, MOST_NAMED, acting, are_together_another, missing};
 use super::plan::{Plan, judged_scaled_records};
 use super::report::{Conclusion, Other};
 use crate::diagnosis::{Candidate, Diagnosis};
-use crate::differences::{Differences, MachineRecord, RowKind, Source, compare};
+use crate::differences::{Differences, MachineRecord, Source, compare};
 use crate::effect::Effect;
 use crate::error::DiagnoseError;
 use crate::evidence::Judged;
@@ -54,40 +55,37 @@ pub(super) fn compared(
     match (diagnosis.verdict.status, &diagnosis.differences) {
         (Status::Unexplained, Some(found)) => {
             let posterior = settings.posterior.as_deref().unwrap_or_else(|| Posterior::built_in());
-            let aligned: Vec<Vec<f64>> = found.runs.iter().map(|[_, aligned]| aligned.clone()).collect();
-            let classified = classified_beside(&rig, &aligned, (posterior, settings))?;
-            Ok(with(diagnosis, classified))
+            // Evidence is freed of the directions of the source's values, but not of those of effects that stand for another.
+            let runs: Vec<Vec<f64>> = found.runs.iter().map(|[run, _]| run.clone()).collect();
+            let Ok(Some(judged)) = Judged::beside(&rig, &runs) else { return Ok(diagnosis) };
+            Ok(with(diagnosis, Classification::of(&judged, posterior, settings)?))
         }
         _ => Ok(diagnosis),
     }
 }
 
-/// What the posterior says of a rig beside an aligned source that leaves more than the noise; none where its predictions show no system.
-fn classified_beside(
-    rig: &Rig,
-    aligned: &[Vec<f64>],
-    (posterior, settings): (&Posterior, &Settings),
-) -> Result<Option<Classification>, DiagnoseError> {
-    let Ok(Some(judged)) = Judged::beside(rig, aligned) else { return Ok(None) };
-    Ok(Some(Classification::of(&judged, posterior, settings)?))
-}
-
 /// The diagnosis with the verdict of the posterior.
-fn with(diagnosis: Diagnosis, classification: Option<Classification>) -> Diagnosis {
-    let Some(classification) = classification else { return diagnosis };
+fn with(diagnosis: Diagnosis, classification: Classification) -> Diagnosis {
     let mut limitations = diagnosis.limitations;
     if classification.is_outside() {
         limitations.push(OUTSIDE.to_owned());
     }
     let verdict = classification.verdict();
-    // That the aligned source leaves more than the noise was measured.
+    // That the source misses more than the noise was measured.
     let verdict = match verdict.status {
         Status::None => naming_nothing(Status::Unexplained, None, classification.unexplained()),
         _ => verdict,
     };
+    let known = classification.effects();
+    let probability =
+        |effect: Effect| known.iter().find(|(known, _)| *known == effect).map_or(0.0, |(_, p)| *p);
+    let mut candidates = diagnosis.candidates;
+    candidates.iter_mut().for_each(|candidate| candidate.probability = probability(candidate.effect));
+    candidates.sort_by(|x, y| y.probability.total_cmp(&x.probability));
     Diagnosis {
         verdict,
         limitations,
+        candidates,
         probability_none: classification.none,
         probability_unexplained: classification.unexplained(),
         classification: Some(classification),
@@ -237,25 +235,12 @@ fn conclusion(plan: &Plan, verdict: Verdict, other: Option<Other>) -> Conclusion
     }
 }
 
-/// Effects that the source lacks and the machine has, in the order of what they explain.
-fn missing(found: &Differences) -> Vec<(Effect, &crate::differences::Row)> {
-    let terms = found.rows.iter().filter(|row| row.differs && row.kind == RowKind::Effect && row.in_a == 0.0);
-    let mut all: Vec<(Effect, &crate::differences::Row)> = Vec::new();
-    for row in terms {
-        let Some(effect) = row.effect.and_then(Effect::from_name) else { continue };
-        if all.iter().all(|(other, _)| *other != effect) {
-            all.push((effect, row));
-        }
-    }
-    all
-}
-
-/// Most effects that a verdict names together.
-const MOST_NAMED: usize = 2;
-
 fn verdict(plan: &Plan, found: &Differences, other: &Other) -> Verdict {
     let differs = found.rows.iter().any(|row| row.differs);
     let missing = missing(found);
+    if are_together_another(&found.rows, &missing) && !plan.dataset.is_designed() {
+        return naming_nothing(Status::Unexplained, None, 1.0);
+    }
     let probability =
         found.rows.iter().filter(|row| row.differs).map(|row| row.probability).fold(1.0, f64::min);
     // Mean square error of the aligned source on the judged records over that of the noise.
@@ -291,16 +276,6 @@ fn verdict(plan: &Plan, found: &Differences, other: &Other) -> Verdict {
         _ => naming_nothing(Status::Unexplained, None, 1.0),
     }
 }
-
-/// The first of the effects missing, and those behind it without which more of the gap would stay than beside a cause by itself.
-fn acting(missing: &[(Effect, &crate::differences::Row)]) -> Vec<Effect> {
-    let acts = |number: usize, closure: f64| number == 0 || closure > 1.0 - ESSENTIAL;
-    let acting = missing.iter().enumerate().filter(|(number, (_, row))| acts(*number, row.closure));
-    acting.map(|(_, (effect, _))| *effect).take(MOST_NAMED).collect()
-}
-
-/// Share of the gap that must stay without an effect for it to be the cause by itself: nine tenths.
-const ESSENTIAL: f64 = 0.9;
 
 /// Mean square error over the noise up to which the aligned source explains the records: the noise itself has one, and the same again is a misfit as large as the noise.
 const EXPLAINED: f64 = 2.0;

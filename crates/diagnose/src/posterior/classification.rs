@@ -49,11 +49,7 @@ impl Classification {
     ///
     /// # Errors
     /// [`PosteriorError`] where the posterior was trained with other columns.
-    pub(crate) fn of(
-        judged: &Judged,
-        posterior: &Posterior,
-        settings: &Settings,
-    ) -> Result<Self, PosteriorError> {
+    pub fn of(judged: &Judged, posterior: &Posterior, settings: &Settings) -> Result<Self, PosteriorError> {
         let named: Vec<(&str, f64)> =
             judged.evidence.columns.iter().map(|(name, value)| (name.as_str(), *value)).collect();
         let row = posterior.row(&named)?;

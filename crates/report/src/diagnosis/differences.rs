@@ -123,7 +123,18 @@ pub(super) fn sentences(report: &Report, differences: &Differences) -> Vec<Strin
         _ if off.is_empty() => sentences.push(format!(
             "No value of {source} differs from the machine's and no effect known here is missing in it, and yet it misses more than the noise."
         )),
-        _ => sentences.push(format!("What differs: {}.", off.iter().map(|row| difference(row, source)).collect::<Vec<_>>().join("; "))),
+        _ => {
+            let largest: Vec<String> = off.iter().take(SHOWN).map(|row| difference(row, source)).collect();
+            let largest = largest.join("; ");
+            sentences.push(match off.len() {
+                count if count > SHOWN && report.diagnosis.classification.is_some() => format!(
+                    "Only {count} differences together bring {source} near the machine, which is no explanation but an imitation of one. The \
+                     largest (the table has all): {largest}."
+                ),
+                count if count > SHOWN => format!("What differs: {largest}; {} more in the table.", count - SHOWN),
+                _ => format!("What differs: {largest}."),
+            });
+        }
     }
     if let Some(known) = off.iter().find_map(|row| known_factor(row)) {
         sentences.push(known);
@@ -132,12 +143,16 @@ pub(super) fn sentences(report: &Report, differences: &Differences) -> Vec<Strin
     if !alike.is_empty() {
         sentences.push(format!("The same on both sides: {}.", alike.join(", ")));
     }
-    if !off.is_empty() {
+    let is_imitation = off.len() > SHOWN && report.diagnosis.classification.is_some();
+    if !off.is_empty() && !is_imitation {
         sentences.push(advice(report, &off));
         sentences.extend(closed(report));
     }
     sentences
 }
+
+/// Differences in sentences; the table has all.
+const SHOWN: usize = 4;
 
 /// Shapes of effects that are not there are no values of either side.
 fn is_listed(row: &ReportedDifference) -> bool {

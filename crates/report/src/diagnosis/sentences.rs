@@ -28,6 +28,8 @@ pub(super) fn verdict(report: &Report) -> Vec<String> {
         sentences.push(place::place(report).unwrap_or_else(|| "No place stands out on the map.".to_owned()));
     }
     if let Some(differences) = &diagnosis.differences {
+        // Where no few differences align the source the posterior says what is missing in it.
+        sentences.extend(diagnosis.classification.as_ref().map(|_| cause(diagnosis, &units)));
         sentences.extend(super::differences::sentences(report, differences));
         return sentences;
     }
