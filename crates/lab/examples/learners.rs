@@ -32,7 +32,7 @@ fn run() -> miette::Result<()> {
     let mut out = String::from(
         "| learner | share | rows | log score | Brier | calibration error (perfect) | first | first five |\n|---|--:|--:|--:|--:|--:|--:|--:|\n",
     );
-    for Compared { name, share, scores: s } in compare(&table, &LearningSettings::default()).all {
+    for Compared { name, share, scores: s } in compare(&table, &LearningSettings::default()) {
         let _ = writeln!(
             out,
             "| {name} | {share} | {} | {:.3} | {:.3} | {:.3} ({:.3}) | {:.1} % | {:.1} % |",

@@ -18,13 +18,6 @@ pub struct Compared {
     pub scores: Scores,
 }
 
-/// All learners, and how they grow with the rows.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Comparison {
-    /// Learners at each share of the rows.
-    pub all: Vec<Compared>,
-}
-
 /// Shares of the rows in a learning curve.
 const CURVE: [f64; 3] = [0.25, 0.5, 1.0];
 const CURVE_SEED: u64 = 1;
@@ -32,7 +25,7 @@ const CURVE_SEED: u64 = 1;
 /// Scores trees, network, ranker and their mean out of fold, at a quarter, a half and all of the rows.
 ///
 /// The shares of the mean are fitted to the rows that score it: three numbers on thousands of rows.
-pub fn compare(table: &Table, settings: &LearningSettings) -> Comparison {
+pub fn compare(table: &Table, settings: &LearningSettings) -> Vec<Compared> {
     let mut all = Vec::new();
     for share in CURVE {
         let rows: Vec<usize> =
@@ -49,5 +42,5 @@ pub fn compare(table: &Table, settings: &LearningSettings) -> Comparison {
         let weights = shares(&found, &judged.labels, &judged.weights);
         add("together", &mixed(&found, &weights));
     }
-    Comparison { all }
+    all
 }

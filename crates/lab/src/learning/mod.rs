@@ -27,7 +27,7 @@ pub use binned::Binned;
 pub use boosting::{Target, boost};
 pub use boosting_settings::BoostingSettings;
 pub use combined::{Fitted, Models, fit};
-pub use comparison::{Compared, Comparison, compare};
+pub use comparison::{Compared, compare};
 pub use folds::{Fold, folds};
 pub use network::{NetworkSettings, train_network};
 pub use populations::{Population, populations};

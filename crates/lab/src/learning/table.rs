@@ -16,7 +16,7 @@ pub struct Group {
 /// What is true of a row beside its class.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Truth {
-    /// Size of the cause.
+    /// Size of the cause: what survives identification anew, over what the records without it leave.
     pub size: f64,
     /// What the rig was made to show.
     pub kind: String,

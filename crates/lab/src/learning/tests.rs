@@ -138,7 +138,7 @@ fn folds_share_neither_base_nor_law_and_judge_every_row_once() {
 fn learners_learn_and_more_rows_teach_more() {
     let comparison = compare(&table(480, 9), &small());
     let log = |name: &str, share: f64| {
-        let found = comparison.all.iter().find(|c| c.name == name && c.share == share);
+        let found = comparison.iter().find(|c| c.name == name && c.share == share);
         found.expect("a learner").scores.log
     };
     // Knowing nothing costs ln 4 = 1.39 nats.

@@ -26,6 +26,13 @@ pub struct EvidenceRow {
 const FAINT: f64 = 0.33;
 
 impl EvidenceRow {
+    /// What survives identification anew, to first order or as the program identifies: the less. The latter chooses order and delay, too.
+    fn size(rig: &TrainingRig) -> f64 {
+        let first_order = rig.truth.size;
+        let identified = (first_order >= FAINT).then(|| rig.identified_size().ok()).flatten();
+        identified.map_or(first_order, |identified| identified.min(first_order))
+    }
+
     /// By the nominal system that the program itself would identify; none where there is none.
     pub fn of(rig: &TrainingRig) -> Option<Self> {
         let judged = match rig.is_given {
@@ -37,9 +44,11 @@ impl EvidenceRow {
             false => Judged::identified(&rig.rig),
         };
         let truth = &rig.truth;
-        let is_faint = truth.size < FAINT;
+        let size = Self::size(rig);
+        // A model that was given has absorbed nothing.
+        let left = if rig.is_given { truth.size } else { size };
         let label = match truth.kind {
-            _ if is_faint => "none",
+            _ if left < FAINT => "none",
             Kind::Nothing => "none",
             Kind::Foreign => "unexplained",
             Kind::One | Kind::Pair => truth.label()?,
@@ -50,7 +59,7 @@ impl EvidenceRow {
             label: label.to_owned(),
             group: Group { family: truth.family.name().to_owned(), law, base: truth.base.clone() },
             truth: Truth {
-                size: truth.size,
+                size,
                 kind: truth.kind.name().to_owned(),
                 is_given: rig.is_given,
                 also: others.map(str::to_owned).collect(),

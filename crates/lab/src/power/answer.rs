@@ -16,12 +16,11 @@ pub enum Answer {
 impl Answer {
     /// What a reply is worth to an effect.
     pub(crate) fn of(reply: &Reply, effect: &str) -> Self {
-        let said = reply.listed();
+        let listed = reply.listed();
         match reply.status {
-            "named" if said.contains(&effect) => Self::Named,
-            "class" | "ambiguous" | "shortlist" if said.contains(&effect) && said.len() <= WIDEST_CLASS => {
-                Self::InClass
-            }
+            _ if !listed.contains(&effect) => Self::Other(reported(reply)),
+            "named" => Self::Named,
+            _ if listed.len() <= WIDEST_CLASS => Self::InClass,
             _ => Self::Other(reported(reply)),
         }
     }
@@ -33,16 +32,15 @@ impl Answer {
 }
 
 fn reported(reply: &Reply) -> String {
+    let listed = reply.listed();
     match reply.status {
         "none" => "nothing".to_owned(),
         "refit" => "other parameters".to_owned(),
         "unexplained" => "none of these".to_owned(),
-        "named" => reply.said().join(" with "),
-        "class" | "ambiguous" | "shortlist" if reply.listed().len() > WIDEST_CLASS => {
-            format!("one of {} effects", reply.listed().len())
-        }
-        "class" | "ambiguous" | "shortlist" => reply.listed().join(" or "),
-        _ => "no diagnosis".to_owned(),
+        "named" => listed.join(" with "),
+        _ if listed.is_empty() => "no diagnosis".to_owned(),
+        _ if listed.len() > WIDEST_CLASS => format!("one of {} effects", listed.len()),
+        _ => listed.join(" or "),
     }
 }
 
