@@ -78,11 +78,7 @@ pub(super) fn classified(
 impl Plan {
     /// What the posterior says, shown by the fit of the effect that comes first.
     fn concluded(&self, singles: Vec<Hypothesis>, classification: &Classification) -> Conclusion {
-        let effects = classification.effects();
-        let probability = |s: &Hypothesis| {
-            let of = |(effect, _): &&(Effect, f64)| *effect == s.effect_terms[0].effect;
-            effects.iter().find(of).map_or(0.0, |(_, p)| *p)
-        };
+        let probability = |s: &Hypothesis| classification.probability(s.effect_terms[0].effect);
         let odds = Odds {
             effects: singles.iter().map(probability).collect(),
             none: classification.none,

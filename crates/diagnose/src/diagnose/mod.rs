@@ -10,7 +10,6 @@ mod exact;
 mod given_model;
 mod held_out;
 mod judged;
-mod missing;
 mod nominal;
 mod other_conditions;
 mod parameters;

@@ -9,11 +9,10 @@ use switchback_model::system::{Borders, LinearPart, Sensor, System};
 
 use super::classified::OUTSIDE;
 use super::given_model::GivenModel;
-use super::missing::{ESSENTIAL, MOST_NAMED, acting, are_together_another, missing};
 use super::plan::{Plan, judged_scaled_records};
 use super::report::{Conclusion, Other};
 use crate::diagnosis::{Candidate, Diagnosis};
-use crate::differences::{Differences, MachineRecord, Source, compare};
+use crate::differences::{Differences, MachineRecord, Source, causes, compare, is_imitation, missing};
 use crate::effect::Effect;
 use crate::error::DiagnoseError;
 use crate::evidence::Judged;
@@ -71,16 +70,15 @@ fn with(diagnosis: Diagnosis, classification: Classification) -> Diagnosis {
         limitations.push(OUTSIDE.to_owned());
     }
     let verdict = classification.verdict();
-    // That the source misses more than the noise was measured.
+    // Where the source misses more than the noise, something is missing.
     let verdict = match verdict.status {
-        Status::None => naming_nothing(Status::Unexplained, None, classification.unexplained()),
+        Status::None if diagnosis.gap.before.ci90[0] > 0.0 => {
+            naming_nothing(Status::Unexplained, None, classification.unexplained())
+        }
         _ => verdict,
     };
-    let known = classification.effects();
-    let probability =
-        |effect: Effect| known.iter().find(|(known, _)| *known == effect).map_or(0.0, |(_, p)| *p);
     let mut candidates = diagnosis.candidates;
-    candidates.iter_mut().for_each(|candidate| candidate.probability = probability(candidate.effect));
+    candidates.iter_mut().for_each(|c| c.probability = classification.probability(c.effect));
     candidates.sort_by(|x, y| y.probability.total_cmp(&x.probability));
     Diagnosis {
         verdict,
@@ -192,8 +190,8 @@ fn report(mut plan: Plan, rig: &Rig, differences: Option<Differences>) -> Diagno
         .map(|&k| dimensionless(&found.runs[k][1], plan.dataset.y_mean, plan.dataset.y_scale));
     let runs: Vec<Vec<f64>> = runs.collect();
     let floor = floor(&plan, &found);
+    let verdict = verdict(&plan, &found, floor.0);
     let other = Other { structure: plan.structure, runs, floor };
-    let verdict = verdict(&plan, &found, &other);
     let candidates = candidates(&found);
     let conclusion = conclusion(&plan, verdict, Some(other));
     Diagnosis { differences: Some(found), ..plan.report(conclusion, candidates, Vec::new()) }
@@ -202,17 +200,8 @@ fn report(mut plan: Plan, rig: &Rig, differences: Option<Differences>) -> Diagno
 /// Variance of the machine's noise and its relative standard error: that which its own model leaves, or the aligned source, whichever leaves less.
 fn floor(plan: &Plan, found: &Differences) -> (f64, f64) {
     let own = plan.noise_floor(&plan.nominal.plain.fit);
-    let scaled = &plan.dataset.scaled_records;
-    let fitted = scaled.iter().enumerate().filter(|(_, record)| record.is_fit());
-    let (mut square, mut count) = (0.0, 0.0);
-    for (k, record) in fitted {
-        let run = dimensionless(&found.runs[k][1], plan.dataset.y_mean, plan.dataset.y_scale);
-        for t in record.from..record.y.len() {
-            square += (record.y[t] - run[t]).powi(2);
-            count += 1.0;
-        }
-    }
-    let aligned = square / f64::max(count, 1.0);
+    let records = &plan.dataset.scaled_records;
+    let (aligned, count) = aligned_error(plan, found, (0..records.len()).filter(|k| records[*k].is_fit()));
     if count > 0.0 && aligned < own.0 { (aligned, 2.0 * (2.0 / count).sqrt()) } else { own }
 }
 
@@ -235,46 +224,40 @@ fn conclusion(plan: &Plan, verdict: Verdict, other: Option<Other>) -> Conclusion
     }
 }
 
-fn verdict(plan: &Plan, found: &Differences, other: &Other) -> Verdict {
+fn verdict(plan: &Plan, found: &Differences, floor: f64) -> Verdict {
     let differs = found.rows.iter().any(|row| row.differs);
-    let missing = missing(found);
-    if are_together_another(&found.rows, &missing) && !plan.dataset.is_designed() {
+    if is_imitation(&found.rows) && !plan.dataset.is_designed() {
         return naming_nothing(Status::Unexplained, None, 1.0);
     }
     let probability =
         found.rows.iter().filter(|row| row.differs).map(|row| row.probability).fold(1.0, f64::min);
-    // Mean square error of the aligned source on the judged records over that of the noise.
+    let (left, _) = aligned_error(plan, found, plan.judged.iter().copied());
+    let explains = left / floor.max(f64::MIN_POSITIVE) < EXPLAINED;
+    let effects = causes(&missing(&found.rows), explains);
+    match effects.first() {
+        Some(first) => Verdict {
+            stage: Some(first.stage()),
+            effects,
+            ..naming_nothing(Status::Named, None, probability)
+        },
+        None if !explains => naming_nothing(Status::Unexplained, None, 1.0),
+        None if differs => naming_nothing(Status::Parameters, None, probability),
+        None => naming_nothing(Status::None, None, 1.0 - most_probable_change(found)),
+    }
+}
+
+/// Mean square error of the aligned source on some records, dimensionless, and the samples that it is of.
+fn aligned_error(plan: &Plan, found: &Differences, records: impl Iterator<Item = usize>) -> (f64, f64) {
     let (mut square, mut count) = (0.0, 0.0);
-    for (run, &k) in other.runs.iter().zip(&plan.judged) {
+    for k in records {
+        let run = dimensionless(&found.runs[k][1], plan.dataset.y_mean, plan.dataset.y_scale);
         let record = &plan.dataset.scaled_records[k];
         for t in record.from..record.y.len() {
             square += (record.y[t] - run[t]).powi(2);
             count += 1.0;
         }
     }
-    let left = square / f64::max(count, 1.0) / other.floor.0.max(f64::MIN_POSITIVE);
-    let explains = left < EXPLAINED;
-    // An effect is the cause where the gap would stay without it, whatever other values close beside it.
-    let essential: Vec<Effect> = missing
-        .iter()
-        .filter(|(_, row)| row.closure >= ESSENTIAL)
-        .map(|(effect, _)| *effect)
-        .take(MOST_NAMED)
-        .collect();
-    if let Some(first) = essential.first() {
-        let verdict = naming_nothing(Status::Named, Some(first.stage()), probability);
-        return Verdict { effects: essential, ..verdict };
-    }
-    let effects = acting(&missing);
-    match (differs, effects.first()) {
-        (false, _) if explains => naming_nothing(Status::None, None, 1.0 - most_probable_change(found)),
-        (true, None) if explains => naming_nothing(Status::Parameters, None, probability),
-        (true, Some(first)) if explains => Verdict {
-            effects: effects.clone(),
-            ..naming_nothing(Status::Named, Some(first.stage()), probability)
-        },
-        _ => naming_nothing(Status::Unexplained, None, 1.0),
-    }
+    (square / f64::max(count, 1.0), count)
 }
 
 /// Mean square error over the noise up to which the aligned source explains the records: the noise itself has one, and the same again is a misfit as large as the noise.
@@ -295,8 +278,9 @@ fn candidates(found: &Differences) -> Vec<Candidate> {
         delta_bic: row.gain,
         heldout_log_score: 0.0,
         gains: Vec::new(),
-        closure: Some(row.closure),
+        // Differences beside one that is left out can take the source farther away than it was.
+        closure: Some(row.closure.min(1.0)),
         unstable: false,
     };
-    missing(found).into_iter().map(one).collect()
+    missing(&found.rows).into_iter().map(one).collect()
 }

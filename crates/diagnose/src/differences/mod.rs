@@ -9,12 +9,15 @@
 //! system, and each effect that it lacks, is a candidate for a difference; stepwise selection finds those that the machine's records call for (`selection`).
 
 mod alignment;
+mod missing;
 mod pair;
 mod rows;
 mod selection;
 mod source;
 mod surrogate;
 
+pub use missing::is_imitation;
+pub(crate) use missing::{causes, missing};
 pub use pair::{Differences, MachineRecord, Shift, compare};
 pub use rows::{Row, RowKind};
 pub use source::Source;

@@ -49,7 +49,11 @@ impl Classification {
     ///
     /// # Errors
     /// [`PosteriorError`] where the posterior was trained with other columns.
-    pub fn of(judged: &Judged, posterior: &Posterior, settings: &Settings) -> Result<Self, PosteriorError> {
+    pub(crate) fn of(
+        judged: &Judged,
+        posterior: &Posterior,
+        settings: &Settings,
+    ) -> Result<Self, PosteriorError> {
         let named: Vec<(&str, f64)> =
             judged.evidence.columns.iter().map(|(name, value)| (name.as_str(), *value)).collect();
         let row = posterior.row(&named)?;
@@ -99,6 +103,11 @@ impl Classification {
     /// Effects that a diagnosis can name, likeliest first.
     pub fn effects(&self) -> Vec<(Effect, f64)> {
         self.causes.iter().filter_map(|cause| Some((cause.effect?, cause.probability))).collect()
+    }
+
+    /// Probability of an effect.
+    pub fn probability(&self, effect: Effect) -> f64 {
+        self.causes.iter().find(|cause| cause.effect == Some(effect)).map_or(0.0, |cause| cause.probability)
     }
 
     /// Probability of a cause that no diagnosis can name.

@@ -26,13 +26,6 @@ pub struct EvidenceRow {
 const FAINT: f64 = 0.33;
 
 impl EvidenceRow {
-    /// What survives identification anew, to first order or as the program identifies: the less. The latter chooses order and delay, too.
-    fn size(rig: &TrainingRig) -> f64 {
-        let first_order = rig.truth.size;
-        let identified = (first_order >= FAINT).then(|| rig.identified_size().ok()).flatten();
-        identified.map_or(first_order, |identified| identified.min(first_order))
-    }
-
     /// By the nominal system that the program itself would identify; none where there is none.
     pub fn of(rig: &TrainingRig) -> Option<Self> {
         let judged = match rig.is_given {
@@ -44,7 +37,7 @@ impl EvidenceRow {
             false => Judged::identified(&rig.rig),
         };
         let truth = &rig.truth;
-        let size = Self::size(rig);
+        let size = rig.surviving_size();
         // A model that was given has absorbed nothing.
         let left = if rig.is_given { truth.size } else { size };
         let label = match truth.kind {

@@ -137,6 +137,21 @@ fn sizes_are_those_of_identification_anew_in_the_middle() {
 }
 
 #[test]
+fn nothing_survives_that_either_identification_takes() {
+    let samples = |rig: &TrainingRig| rig.rig.records.iter().map(|r| r.record.len()).sum::<usize>();
+    let rigs: Vec<TrainingRig> = rigs(16).into_iter().filter(|rig| samples(rig) < 3500).collect();
+    let sizes: Vec<[f64; 3]> = rigs
+        .par_iter()
+        .with_max_len(1)
+        .map(|rig| [rig.surviving_size(), rig.truth.size, rig.identified_size().unwrap_or(f64::INFINITY)])
+        .collect();
+    assert!(sizes.iter().all(|[size, first_order, identified]| *size == first_order.min(*identified)));
+    assert!(sizes.iter().any(|[size, first_order, _]| size < first_order), "{sizes:?}");
+    let nothing = |rig: &&TrainingRig| rig.truth.kind == Kind::Nothing;
+    assert!(rigs.iter().filter(nothing).all(|rig| rig.surviving_size() == 0.0));
+}
+
+#[test]
 fn half_of_a_population_stands_on_measured_bases_where_there_are_any() {
     let bench = MakeRig::new(3).setting(Setting::Field).make().expect("a rig").rig;
     let mut flat = bench.clone();

@@ -86,4 +86,11 @@ impl TrainingRig {
     pub fn identified_size(&self) -> Result<f64, InjectionError> {
         Ok(Base::new(&self.before)?.surviving(&self.rig))
     }
+
+    /// What survives identification anew, to first order or as the program identifies: the less. The latter chooses order and delay, too.
+    pub fn surviving_size(&self) -> f64 {
+        let first_order = self.truth.size;
+        let identified = (first_order > 0.0).then(|| self.identified_size().ok()).flatten();
+        identified.map_or(first_order, |identified| identified.min(first_order))
+    }
 }

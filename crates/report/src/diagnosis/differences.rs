@@ -4,7 +4,7 @@ use super::probability::probability;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use switchback_diagnose::Status;
-use switchback_diagnose::differences::{Differences, RowKind};
+use switchback_diagnose::differences::{Differences, RowKind, is_imitation};
 use switchback_io::diagnosis::{Report, ReportedDifference, Source, Units, digits, whole_percent};
 use switchback_io::output::{columns, wrapped};
 
@@ -115,6 +115,7 @@ pub(super) fn sentences(report: &Report, differences: &Differences) -> Vec<Strin
     let rows = reported(report, differences);
     let source = report.source.in_words();
     let (off, same): (Vec<_>, Vec<_>) = rows.iter().partition(|row| row.differs);
+    let is_imitation = report.diagnosis.classification.is_some() && is_imitation(&differences.rows);
     let mut sentences = Vec::new();
     match report.diagnosis.verdict.status {
         Status::None if off.is_empty() => {
@@ -127,7 +128,7 @@ pub(super) fn sentences(report: &Report, differences: &Differences) -> Vec<Strin
             let largest: Vec<String> = off.iter().take(SHOWN).map(|row| difference(row, source)).collect();
             let largest = largest.join("; ");
             sentences.push(match off.len() {
-                count if count > SHOWN && report.diagnosis.classification.is_some() => format!(
+                count if is_imitation => format!(
                     "Only {count} differences together bring {source} near the machine, which is no explanation but an imitation of one. The \
                      largest (the table has all): {largest}."
                 ),
@@ -143,7 +144,6 @@ pub(super) fn sentences(report: &Report, differences: &Differences) -> Vec<Strin
     if !alike.is_empty() {
         sentences.push(format!("The same on both sides: {}.", alike.join(", ")));
     }
-    let is_imitation = off.len() > SHOWN && report.diagnosis.classification.is_some();
     if !off.is_empty() && !is_imitation {
         sentences.push(advice(report, &off));
         sentences.extend(closed(report));

@@ -60,7 +60,7 @@ pub(crate) struct GapFile {
     pub probability_unexplained: f64,
     /// What a model says that was fitted to diagnoses of rigs whose cause is known; null where an order is declared or an experiment was designed.
     pub second_opinion: Option<SecondOpinion>,
-    /// What a posterior says that was trained on rigs whose cause is known; null where it was not asked: none was given and rules show candidates, an order is declared or an experiment was designed.
+    /// What a posterior says that was trained on rigs whose cause is known; null where it was not asked: rules show candidates and none was given, an order is declared or an experiment was designed, or few differences align the source that is compared.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub posterior: Option<Posterior>,
     /// What to read with care, a sentence each.

@@ -199,11 +199,8 @@ fn cause(diagnosis: &Diagnosis, units: &Units) -> String {
 
 /// `backlash 0.52, then creep 0.21`, each with its probability.
 fn ranked(diagnosis: &Diagnosis) -> String {
-    let probability_of = |effect: &Effect| {
-        let causes = diagnosis.classification.iter().flat_map(|classification| &classification.causes);
-        causes.clone().find(|cause| cause.effect == Some(*effect)).map_or(0.0, |cause| cause.probability)
-    };
-    let one = |effect: &Effect| format!("{effect} ({})", probability(probability_of(effect)));
+    let of = |effect: &Effect| diagnosis.classification.as_ref().map_or(0.0, |c| c.probability(*effect));
+    let one = |effect: &Effect| format!("{effect} ({})", probability(of(effect)));
     diagnosis.verdict.class.iter().map(one).collect::<Vec<_>>().join(", then ")
 }
 
