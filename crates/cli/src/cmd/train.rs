@@ -137,7 +137,7 @@ fn files(places: &[PathBuf]) -> Result<Vec<PathBuf>, TableProblem> {
         let mut found: Vec<PathBuf> = names
             .into_iter()
             .map(|name| place.join(name))
-            .filter(|f| f.extension().is_some_and(|e| e == "csv"))
+            .filter(|f| f.extension().is_some_and(|e| e == "csv") && f.is_file())
             .collect();
         if found.is_empty() {
             return Err(TableProblem::NoTable(shown()));
