@@ -25,13 +25,25 @@ impl Table {
     }
 
     /// The knot to the left, and the share of its cell that is passed.
+    #[inline]
     fn place(&self, v: f64) -> (u32, f64) {
-        let knots = &self.knots;
-        let left = knots.partition_point(|&k| k <= v).clamp(1, knots.len() - 1) - 1;
+        self.place_near(v, 0)
+    }
+
+    /// [`Self::place`], looked for in the cell to the right of a knot first: a position seldom leaves the cell of the sample before.
+    #[inline]
+    fn place_near(&self, v: f64, near: u32) -> (u32, f64) {
+        let (knots, near) = (&self.knots, near as usize);
+        let left = if knots[near] <= v && v < knots[near + 1] {
+            near
+        } else {
+            knots.partition_point(|&k| k <= v).clamp(1, knots.len() - 1) - 1
+        };
         let share = ((v - knots[left]) / (knots[left + 1] - knots[left])).clamp(0.0, 1.0);
         (left as u32, share)
     }
 
+    #[inline]
     fn value(&self, (left, share): (u32, f64)) -> f64 {
         let left = left as usize;
         self.values[left] + share * (self.values[left + 1] - self.values[left])
@@ -69,27 +81,37 @@ impl Borders {
 
     /// `(mean, half)` at a position.
     pub fn at(&self, v: f64) -> (f64, f64) {
-        let [descending, ascending] = [self.curves[0].at(v), self.curves[1].at(v)];
-        (0.5 * (ascending + descending), 0.5 * (ascending - descending))
+        self.at_place([self.curves[0].place(v), self.curves[1].place(v)])
     }
 
     /// Where positions lie among the knots.
     pub(super) fn places(&self, positions: &[f64]) -> Places {
-        let each = positions.iter().map(|&v| [self.curves[0].place(v), self.curves[1].place(v)]).collect();
-        Places { knots: self.curves.each_ref().map(|c| c.knots.clone()), each }
+        Places {
+            knots: self.curves.each_ref().map(|c| c.knots.clone()),
+            each: self.each_place(positions).collect(),
+        }
+    }
+
+    fn each_place(&self, positions: &[f64]) -> impl Iterator<Item = [(u32, f64); 2]> {
+        positions.iter().scan([0; 2], |near, &v| {
+            let places = [0, 1].map(|side| self.curves[side].place_near(v, near[side]));
+            *near = places.map(|(left, _)| left);
+            Some(places)
+        })
+    }
+
+    #[inline]
+    fn at_place(&self, [descending, ascending]: [(u32, f64); 2]) -> (f64, f64) {
+        let [descending, ascending] = [self.curves[0].value(descending), self.curves[1].value(ascending)];
+        (0.5 * (ascending + descending), 0.5 * (ascending - descending))
     }
 
     /// `(mean, half)` at positions, the places of which are those of these knots or are found anew.
     pub(super) fn along(&self, positions: &[f64], places: &Places) -> Vec<(f64, f64)> {
         if self.curves.iter().zip(&places.knots).any(|(curve, knots)| curve.knots != *knots) {
-            return positions.iter().map(|&v| self.at(v)).collect();
+            return self.each_place(positions).map(|places| self.at_place(places)).collect();
         }
-        let at = |[descending, ascending]: &[(u32, f64); 2]| {
-            let [descending, ascending] =
-                [self.curves[0].value(*descending), self.curves[1].value(*ascending)];
-            (0.5 * (ascending + descending), 0.5 * (ascending - descending))
-        };
-        places.each.iter().map(at).collect()
+        places.each.iter().map(|&places| self.at_place(places)).collect()
     }
 
     /// Number of knots of both.
@@ -143,5 +165,25 @@ impl Borders {
         let last = |c: &Table| c.knots[c.knots.len() - 1];
         let [d, a] = &self.curves;
         (first(d).max(first(a)), last(d).min(last(a)))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_place_is_the_same_wherever_it_is_looked_for_first() {
+        let borders = Borders::new(&[(-1.0, 0.0), (0.5, 2.0), (2.0, -1.0)], &[(-2.0, 1.0), (3.0, 4.0)])
+            .expect("tables");
+        // On knots, between them, beyond both ends, back and forth.
+        let positions: Vec<f64> = (0..400).map(|t| 4.0 * (0.7 * f64::from(t)).sin()).collect();
+        let positions = [&[-1.0, 0.5, 2.0, -9.0, 9.0, f64::NAN, 0.5, 2.0, -1.0], &positions[..]].concat();
+        let alone = |v: f64| borders.curves.each_ref().map(|curve| curve.place(v));
+        for (places, &v) in borders.each_place(&positions).zip(&positions) {
+            let bits = |places: [(u32, f64); 2]| places.map(|(left, share)| (left, share.to_bits()));
+            assert_eq!(bits(places), bits(alone(v)), "{v}");
+        }
+        assert_eq!(alone(0.0)[0], (0, 1.0 / 1.5));
     }
 }
