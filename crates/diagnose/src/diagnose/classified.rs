@@ -5,7 +5,6 @@ use super::plan::Plan;
 use super::report::Conclusion;
 use crate::attribution::explain::Hypothesis;
 use crate::diagnosis::Diagnosis;
-use crate::effect::Effect;
 use crate::error::DiagnoseError;
 use crate::evidence::Judged;
 use crate::nominal::order::{Choice, structure};
