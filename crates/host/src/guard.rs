@@ -103,7 +103,7 @@ fn begin_command(words: &[OsString], folder: &Path) -> io::Result<Child> {
     system::apart(&mut command).stdin(Stdio::piped()).spawn()
 }
 
-/// Variables by which numerical libraries are told how many threads to take.
+/// Variables that set the number of threads of numerical libraries.
 const THREADS: [&str; 4] =
     ["OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "JULIA_NUM_THREADS"];
 

@@ -55,7 +55,7 @@ impl Worker {
         Ok(Self { guard, heard, printed, block, place, _folder: folder })
     }
 
-    /// A file for numbers that lines speak of: in a folder that nobody else reads, and gone when the worker ends.
+    /// A file for numbers that lines speak of: in a folder that nobody else reads, removed when the worker ends.
     pub fn block(&self) -> &Path {
         &self.place
     }

@@ -116,9 +116,9 @@ fn may_hold_zeros(path: &Path) -> bool {
 
 /// Whether the first bytes say so: Parquet, UTF-16, MATLAB, HDF5, MCAP, gzip.
 fn is_binary(bytes: &[u8]) -> bool {
-    const BEGINNINGS: [&[u8]; 7] =
+    const SIGNATURES: [&[u8]; 7] =
         [b"PAR1", b"\xff\xfe", b"\xfe\xff", b"MATLAB ", b"\x89HDF", b"\x89MCAP", b"\x1f\x8b"];
-    BEGINNINGS.iter().any(|beginning| bytes.starts_with(beginning))
+    SIGNATURES.iter().any(|signature| bytes.starts_with(signature))
 }
 
 /// A stream as far as it has been read.

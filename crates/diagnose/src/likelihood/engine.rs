@@ -37,7 +37,7 @@ pub(crate) struct NonlinearParameter {
 }
 
 impl NonlinearParameter {
-    /// The step of the numerical derivative, backwards where the upper bound forbids it forwards.
+    /// The step of the numerical derivative, downwards where the upper bound forbids a step upwards.
     pub(crate) fn inward_step(&self) -> f64 {
         if self.value + self.step > self.high { -self.step } else { self.step }
     }

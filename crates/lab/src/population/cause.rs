@@ -126,8 +126,8 @@ impl Cause {
 
 /// The nominal predictions as signals: what is left of the records is the change from these.
 pub(super) fn nominal(setup: &Setup) -> Vec<Signals> {
-    let one = |track: &super::setup::Track| Signals { v: Vec::new(), y: track.nominal.clone(), moved: None };
-    setup.tracks.iter().map(one).collect()
+    let one = |record: &super::setup::Run| Signals { v: Vec::new(), y: record.nominal.clone(), moved: None };
+    setup.records.iter().map(one).collect()
 }
 
 impl Wanted {

@@ -108,19 +108,19 @@ impl Candidate {
         let is_measured = self.setup.family == Family::Measured;
         let change =
             (!is_measured).then(|| self.anew.parameters(&Setup::change(&nominal(&self.setup), &self.before)));
-        let one = |(track, signals): (&super::setup::Track, &Signals)| {
-            let mut y = track.nominal.clone();
+        let one = |(record, signals): (&super::setup::Run, &Signals)| {
+            let mut y = record.nominal.clone();
             if let Some(moved) = &signals.moved {
                 y.iter_mut().zip(moved).for_each(|(y, m)| *y += m);
             }
             if let Some(change) = &change {
-                let columns = derivatives(&self.setup.machine, self.setup.order, &track.passage.v);
+                let columns = derivatives(&self.setup.machine, self.setup.order, &record.passage.v);
                 for (column, step) in columns.iter().zip(change.iter()) {
-                    y.iter_mut().zip(track.passage.recorded(column)).for_each(|(y, c)| *y += step * c);
+                    y.iter_mut().zip(record.passage.recorded(column)).for_each(|(y, c)| *y += step * c);
                 }
             }
             y
         };
-        self.setup.tracks.iter().zip(&self.put_in.signals).map(one).collect()
+        self.setup.records.iter().zip(&self.put_in.signals).map(one).collect()
     }
 }

@@ -7,7 +7,7 @@ use super::model_error;
 use super::noise::{ManyColours, RoundedInput};
 use super::parts::{Mode, Parts};
 use super::random::{log_uniform, one_of, weighted};
-use super::setup::{OWN_SLOTS, Setup, Track, spread};
+use super::setup::{OWN_SLOTS, Run, Setup, spread};
 use crate::generate::dataset::{dataset, lead_in, one_after_the_other};
 use crate::generate::field;
 use crate::generate::field::reading::Reading;
@@ -49,7 +49,7 @@ pub(super) fn laboratory(seed: u64) -> Setup {
         borders: machine.shape.name(),
         machine,
         own: Vec::new(),
-        tracks: passages.into_iter().map(track).collect(),
+        records: passages.into_iter().map(run).collect(),
         seed,
         order,
         declared: Some((order, interval)),
@@ -57,7 +57,7 @@ pub(super) fn laboratory(seed: u64) -> Setup {
         noise: 0.0,
     };
     finish(&mut setup);
-    setup.noise = setup.machine.noise_sd * setup.machine.noise_amplification() / spread(&setup.tracks);
+    setup.noise = setup.machine.noise_sd * setup.machine.noise_amplification() / spread(&setup.records);
     setup
 }
 
@@ -73,14 +73,14 @@ pub(super) fn field(seed: u64, spared: &[&str]) -> Setup {
         borders: machine.shape.name(),
         machine,
         own,
-        tracks: generator.passages.into_iter().map(track).collect(),
+        records: generator.passages.into_iter().map(run).collect(),
         seed,
         declared: None,
         labels: ("displacement [mm]".to_owned(), "force [N]".to_owned()),
         noise: 0.0,
     };
     finish(&mut setup);
-    setup.noise = setup.machine.noise_sd * setup.machine.noise_amplification() / spread(&setup.tracks);
+    setup.noise = setup.machine.noise_sd * setup.machine.noise_amplification() / spread(&setup.records);
     setup
 }
 
@@ -108,14 +108,14 @@ pub(super) fn without_errors(parts: &Parts, seed: u64, rng: &mut ChaCha8Rng) -> 
 pub(super) fn like(setup: &Setup, parts: &Parts, seed: u64) -> Option<Setup> {
     let machine = Machine { noise_sd: setup.machine.noise_sd, ..parts.machine()? };
     let same =
-        |t: &Track| Track { passage: t.passage.clone(), v: t.v.clone(), measured: None, nominal: Vec::new() };
+        |t: &Run| Run { passage: t.passage.clone(), v: t.v.clone(), measured: None, nominal: Vec::new() };
     let mut other = Setup {
         machine,
         order: parts.order(),
         base: setup.base.clone(),
         labels: setup.labels.clone(),
         own: setup.own.clone(),
-        tracks: setup.tracks.iter().map(same).collect(),
+        records: setup.records.iter().map(same).collect(),
         seed,
         ..*setup
     };
@@ -135,7 +135,7 @@ pub(super) fn louder(setup: &mut Setup, factor: f64) {
 fn of_parts(parts: &Parts, seed: u64, rng: &mut ChaCha8Rng) -> Option<Setup> {
     let feedthrough = rng.random_bool(0.3);
     let machine = parts.machine()?;
-    let tracks = tracks(&machine, parts.slowest(), feedthrough, &mut stream(seed, Purpose::Drive));
+    let records = records(&machine, parts.slowest(), feedthrough, &mut stream(seed, Purpose::Drive));
     let mut setup = Setup {
         family: Family::Wide,
         base: Family::Wide.name().to_owned(),
@@ -143,7 +143,7 @@ fn of_parts(parts: &Parts, seed: u64, rng: &mut ChaCha8Rng) -> Option<Setup> {
         borders: parts.curves.kind.name(),
         machine,
         own: Vec::new(),
-        tracks,
+        records,
         seed,
         declared: None,
         labels: ("position [mm]".to_owned(), "force [N]".to_owned()),
@@ -197,7 +197,7 @@ const RECORDS: [usize; 5] = [1, 2, 3, 4, 6];
 const OFTEN: [f64; 5] = [0.24, 0.32, 0.2, 0.18, 0.06];
 const SAMPLES: (f64, f64) = (300.0, 3500.0);
 
-fn tracks(machine: &Machine, slowest: f64, feedthrough: bool, rng: &mut ChaCha8Rng) -> Vec<Track> {
+fn records(machine: &Machine, slowest: f64, feedthrough: bool, rng: &mut ChaCha8Rng) -> Vec<Run> {
     let count = RECORDS[weighted(rng, &OFTEN)];
     let is_long = rng.random_bool(0.02);
     let total = if is_long { log_uniform(rng, 8000.0, 20_000.0) } else { log_uniform(rng, 900.0, 5000.0) };
@@ -228,39 +228,39 @@ fn tracks(machine: &Machine, slowest: f64, feedthrough: bool, rng: &mut ChaCha8R
         let kept = (0.7 * (single.v.len() - single.lead) as f64).round() as usize;
         passages = single.parted(kept).into();
     }
-    let led = |passage| if feedthrough { ahead(passage) } else { track(passage) };
+    let led = |passage| if feedthrough { ahead(passage) } else { run(passage) };
     passages.into_iter().map(led).collect()
 }
 
-fn track(passage: Passage) -> Track {
+fn run(passage: Passage) -> Run {
     let v = passage.recorded(&passage.v).to_vec();
-    Track { passage, v, measured: None, nominal: Vec::new() }
+    Run { passage, v, measured: None, nominal: Vec::new() }
 }
 
 /// A record whose output answers within the sample: the machine is given the next input.
-fn ahead(mut passage: Passage) -> Track {
+fn ahead(mut passage: Passage) -> Run {
     let v = passage.recorded(&passage.v).to_vec();
     passage.v.remove(0);
     passage.v.push(passage.v[passage.v.len() - 1]);
-    Track { passage, v, measured: None, nominal: Vec::new() }
+    Run { passage, v, measured: None, nominal: Vec::new() }
 }
 
 /// Simulates what the nominal system would do, and learns what the output reaches.
 pub(super) fn finish(setup: &mut Setup) {
-    let Setup { machine, tracks, seed, .. } = setup;
-    for track in &mut *tracks {
-        let y = simulate(machine, &[], &track.passage, *seed, Noise::None).y;
-        track.nominal = track.passage.recorded(&y).to_vec();
+    let Setup { machine, records, seed, .. } = setup;
+    for record in &mut *records {
+        let y = simulate(machine, &[], &record.passage, *seed, Noise::None).y;
+        record.nominal = record.passage.recorded(&y).to_vec();
     }
     let centre = machine.y_centre();
     machine.reach =
-        tracks.iter().flat_map(|t| &t.nominal).fold(0.0, |most, y| f64::max(most, (y - centre).abs()));
+        records.iter().flat_map(|t| &t.nominal).fold(0.0, |most, y| f64::max(most, (y - centre).abs()));
 }
 
 /// Gives a machine of wide draws its noise, a share of the output's standard deviation: part in the equation, part in the output, and what the
 /// recorder of the input does.
 fn add_noise(setup: &mut Setup, noise: f64, rng: &mut ChaCha8Rng) {
-    let sd = noise * spread(&setup.tracks);
+    let sd = noise * spread(&setup.records);
     let part = rng.random_range(0.1..1.0_f64);
     setup.machine.noise_sd = part * sd / setup.machine.noise_amplification();
     setup.noise = noise;

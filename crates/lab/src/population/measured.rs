@@ -4,7 +4,7 @@ use super::borders::{PLACES, smooth};
 use super::family::Family;
 use super::made;
 use super::random::{log_uniform, one_of};
-use super::setup::{Setup, Track, spread};
+use super::setup::{Run, Setup, spread};
 use crate::examination::field::{resampled, runs_of};
 use crate::examination::scramble;
 use crate::generate::Passage;
@@ -102,14 +102,14 @@ fn windows(rig: &Rig, rng: &mut ChaCha8Rng) -> Option<Rig> {
 /// The records as they were measured.
 fn measured_setup(base: &MeasuredBase, rig: &Rig, seed: u64) -> Option<Setup> {
     let HostModel { machine, passages, .. } = HostModel::of(rig, &base.host).ok()?;
-    let track = |(passage, record): (Passage, &RigRecord)| Track {
+    let record = |(passage, record): (Passage, &RigRecord)| Run {
         passage,
         v: record.record.v().to_vec(),
         measured: Some(record.record.y().to_vec()),
         nominal: base.nominal.free_run(&record.record).y,
     };
-    let tracks: Vec<Track> = passages.into_iter().zip(&rig.records).map(track).collect();
-    Some(setup(Family::Measured, base, rig, (machine, tracks, seed)))
+    let records: Vec<Run> = passages.into_iter().zip(&rig.records).map(record).collect();
+    Some(setup(Family::Measured, base, rig, (machine, records, seed)))
 }
 
 /// The machine changed, or another one, on the measured input, with the nominal model's residuals in another order.
@@ -131,27 +131,27 @@ fn resampled_setup(
     let anew = resampled(rig, runs_of(&base.nominal), scramble(seed, 1)).ok()?;
     let louder = quieter * log_uniform(rng, 0.4, 2.0);
     let noise = machine.noise_sd * louder;
-    let tracks: Vec<Track> = passages
+    let records: Vec<Run> = passages
         .into_iter()
         .zip(&anew.records)
-        .map(|(passage, record)| Track {
+        .map(|(passage, record)| Run {
             passage,
             v: record.record.v().to_vec(),
             measured: None,
             nominal: Vec::new(),
         })
         .collect();
-    let mut setup = setup(Family::Resampled, base, rig, (machine, tracks, seed));
+    let mut setup = setup(Family::Resampled, base, rig, (machine, records, seed));
     made::finish(&mut setup);
     setup.machine.noise_sd = noise;
-    let scale = spread(&setup.tracks) / deviation(rig);
-    for (track, record) in setup.tracks.iter_mut().zip(&anew.records) {
-        let run = base.nominal.free_run(&record.record);
+    let scale = spread(&setup.records) / deviation(rig);
+    for (record, resampled) in setup.records.iter_mut().zip(&anew.records) {
+        let run = base.nominal.free_run(&resampled.record);
         let left =
-            record.record.y().iter().zip(&run.y).map(|(y, simulated)| louder * scale * (y - simulated));
-        track.measured = Some(track.nominal.iter().zip(left).map(|(y, r)| y + r).collect());
+            resampled.record.y().iter().zip(&run.y).map(|(y, simulated)| louder * scale * (y - simulated));
+        record.measured = Some(record.nominal.iter().zip(left).map(|(y, r)| y + r).collect());
     }
-    setup.noise = residual(&setup.tracks) / spread(&setup.tracks);
+    setup.noise = residual(&setup.records) / spread(&setup.records);
     Some(setup)
 }
 
@@ -159,15 +159,15 @@ fn setup(
     family: Family,
     base: &MeasuredBase,
     rig: &Rig,
-    (machine, tracks, seed): (Machine, Vec<Track>, u64),
+    (machine, records, seed): (Machine, Vec<Run>, u64),
 ) -> Setup {
-    let noise = residual(&tracks) / spread(&tracks);
+    let noise = residual(&records) / spread(&records);
     Setup {
         family,
         base: base.name.clone(),
         machine,
         own: Vec::new(),
-        tracks,
+        records,
         seed,
         order: base.nominal.structure().order.max(1),
         declared: None,
@@ -178,8 +178,8 @@ fn setup(
 }
 
 /// Root mean square of what the nominal prediction leaves of the measured output.
-fn residual(tracks: &[Track]) -> f64 {
-    let pairs = tracks.iter().flat_map(|t| t.measured.iter().flatten().zip(&t.nominal));
+fn residual(records: &[Run]) -> f64 {
+    let pairs = records.iter().flat_map(|t| t.measured.iter().flatten().zip(&t.nominal));
     let (sum, count) = pairs.fold((0.0, 0.0), |(s, n), (y, p)| (s + (y - p).powi(2), n + 1.0));
     (sum / f64::max(count, 1.0)).sqrt()
 }

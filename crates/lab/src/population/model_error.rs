@@ -28,8 +28,8 @@ const SMALL: f64 = 0.65;
 /// Adds them, sized in standard deviations of the noise; none where a signal is not finite.
 pub(super) fn add(setup: &mut Setup, spared: &[&str], rng: &mut ChaCha8Rng) -> Option<()> {
     let count = weighted(rng, &COUNTS);
-    let dose = if rng.random_bool(SMALL) { log_uniform(rng, 0.15, 1.0) } else { log_uniform(rng, 1.0, 6.0) };
-    let noise = setup.noise * spread(&setup.tracks);
+    let size = if rng.random_bool(SMALL) { log_uniform(rng, 0.15, 1.0) } else { log_uniform(rng, 1.0, 6.0) };
+    let noise = setup.noise * spread(&setup.records);
     for _ in 0..count {
         let (effect, is_foreign) = draw(rng);
         let law = one_of(rng, laws_of(effect));
@@ -37,7 +37,7 @@ pub(super) fn add(setup: &mut Setup, spared: &[&str], rng: &mut ChaCha8Rng) -> O
             continue;
         }
         // Of known effects only little: more would be a cause.
-        let wanted = noise * if is_foreign { dose } else { dose.min(0.6) } / (count as f64).sqrt();
+        let wanted = noise * if is_foreign { size } else { size.min(0.6) } / (count as f64).sqrt();
         let shape = std::array::from_fn(|_| rng.random());
         let slot = OWN_SLOTS + setup.own.len();
         let magnitude = magnitude(setup, (law, shape, slot), wanted)?;
@@ -64,9 +64,9 @@ pub(super) fn magnitude(
     for _ in 0..3 {
         let active = Active { law, amount: Amount { magnitude, shape }, slot };
         let (mut sum, mut count) = (0.0, 0.0);
-        for track in &setup.tracks {
-            let y = simulate(&setup.machine, &[active], &track.passage, setup.seed, Noise::None).y;
-            for (with, without) in track.passage.recorded(&y).iter().zip(&track.nominal) {
+        for record in &setup.records {
+            let y = simulate(&setup.machine, &[active], &record.passage, setup.seed, Noise::None).y;
+            for (with, without) in record.passage.recorded(&y).iter().zip(&record.nominal) {
                 sum += (with - without).powi(2);
                 count += 1.0;
             }

@@ -273,7 +273,7 @@ pub struct Sensor {
     pub bumps: Option<Bumps>,
     /// Soft ends of the inverse.
     pub knees: Vec<Knee>,
-    /// A cubic, forwards.
+    /// A cubic of the true value.
     pub cubic: Option<Cubic>,
     /// The range.
     pub range: Option<[f64; 2]>,

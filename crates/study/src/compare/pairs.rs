@@ -60,7 +60,7 @@ pub fn compare(baseline: &Results, new: &Results) -> Comparison {
     let (mut differences, mut known) = (Vec::new(), Vec::new());
     let rounding = rounding(baseline, new);
     for cell in &baseline.cells {
-        for (parameter, other) in twins(cell, new) {
+        for (parameter, other) in paired_parameters(cell, new) {
             differences.extend(pair(cell, (parameter, other), rounding));
             known.extend(changed(cell, (parameter, other), rounding));
         }
@@ -109,7 +109,10 @@ fn name(cell: &Cell) -> String {
 }
 
 /// The parameters of a cell that another table has as well, with those of that one.
-fn twins<'r>(cell: &'r Cell, other: &'r Results) -> impl Iterator<Item = (&'r Parameter, &'r Parameter)> {
+fn paired_parameters<'r>(
+    cell: &'r Cell,
+    other: &'r Results,
+) -> impl Iterator<Item = (&'r Parameter, &'r Parameter)> {
     let twin = find(other, cell);
     let of = move |p: &'r Parameter| Some((p, twin?.parameters.iter().find(|q| q.name == p.name)?));
     cell.parameters.iter().filter_map(of)
@@ -126,7 +129,7 @@ fn lacking(one: &Results, other: &Results) -> Vec<String> {
         let has = |p: &&Parameter| twin.parameters.iter().any(|q| q.name == p.name);
         let missing = cell.parameters.iter().filter(|p| !has(p));
         names.extend(missing.map(|p| format!("{}: {}", name(cell), p.name)));
-        for (p, q) in twins(cell, other).filter(|_| other.digits.is_none()) {
+        for (p, q) in paired_parameters(cell, other).filter(|_| other.digits.is_none()) {
             let lost = MEASURES.iter().filter(|(_, get)| get(p).is_some() && get(q).is_none());
             names.extend(lost.map(|(measure, _)| format!("{}: {measure} of {}", name(cell), p.name)));
         }

@@ -151,7 +151,7 @@ mod tests {
 
     #[test]
     fn what_differs_is_reported_at_its_place() {
-        let one = json!({ "a": 1.0, "list": [{ "name": "x" }, { "name": "y", "n": 2 }], "gone": true });
+        let one = json!({ "a": 1.0, "list": [{ "name": "x" }, { "name": "y", "n": 2 }], "removed": true });
         let other = json!({ "a": 1.0 + 1e-12, "list": [{ "name": "y", "n": 3 }], "new": null, "text": "t" });
         let mut lines: Vec<String> = changes(&one, &other, 1e-8).iter().map(Change::line).collect();
         // The order of keys is left to the reader of JSON.
@@ -159,10 +159,10 @@ mod tests {
         assert_eq!(
             lines,
             [
-                "gone, true → none",
                 "list: number of entries, 2 → 1",
                 "list: x, {\"name\":\"x\"} → none",
                 "list: y: n, 2 → 3",
+                "removed, true → none",
                 "text, none → \"t\"",
             ]
         );

@@ -195,7 +195,7 @@ fn pairing(cells: &[Cell]) -> Pairing {
         let border = Series { border: cells[0].series.border.clone(), ..cell.series.clone() };
         for over in [method, border].into_iter().filter(|over| *over != cell.series) {
             let other = find(&over).expect("every method and border has every cell");
-            let twins = || cell.parameters.iter().filter_map(|of| Some((other.find(&of.name)?, of)));
+            let pairs = || cell.parameters.iter().filter_map(|of| Some((other.find(&of.name)?, of)));
             let at = pairing.comparisons.iter().position(|c| c.series == cell.series && c.over == over);
             let at = at.unwrap_or_else(|| {
                 let (series, groups, parameters) = (cell.series.clone(), Vec::new(), Vec::new());
@@ -203,7 +203,7 @@ fn pairing(cells: &[Cell]) -> Pairing {
                 pairing.comparisons.len() - 1
             });
             let of_group = |group| {
-                let (over, of) = twins().find(|(o, _)| o.group == group)?;
+                let (over, of) = pairs().find(|(o, _)| o.group == group)?;
                 let (variance_ratio, samples) = (ratio(over, of), cell.samples);
                 Some(PairedGroup {
                     samples,
@@ -215,7 +215,7 @@ fn pairing(cells: &[Cell]) -> Pairing {
             };
             pairing.comparisons[at].groups.extend(Group::ALL.into_iter().filter_map(of_group));
             if cell.samples == 100_000 {
-                pairing.comparisons[at].parameters.extend(twins().map(|(over, of)| PairedParameter {
+                pairing.comparisons[at].parameters.extend(pairs().map(|(over, of)| PairedParameter {
                     name: of.name.clone(),
                     variance_ratio: ratio(over, of),
                     variance_ratio_controlled: None,

@@ -12,7 +12,7 @@ use crate::population::family::Family;
 use crate::population::made;
 use crate::population::model_error::magnitude;
 use crate::population::random::{log_uniform, one_of, weighted};
-use crate::population::setup::{Setup, Track, spread};
+use crate::population::setup::{Run, Setup, spread};
 use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
 use switchback_model::rig::Rig;
@@ -56,7 +56,7 @@ fn pair(row: Row, seed: u64) -> Option<TrainingPair> {
         effect: None,
     };
     let (mut in_a, mut in_b) = (None, None);
-    let noise = b.noise * spread(&b.tracks);
+    let noise = b.noise * spread(&b.records);
     match row {
         Row::Noise => {
             let louder = (log_uniform(&mut rng, 0.3, 1.6) * one_of(&mut rng, &[-1.0, 1.0])).exp();
@@ -72,11 +72,11 @@ fn pair(row: Row, seed: u64) -> Option<TrainingPair> {
         match noise {
             Noise::Recorded => setup.signals(&active).into_iter().map(|signals| signals.y).collect(),
             Noise::None => {
-                let run = |track: &Track| {
-                    let y = simulate(&setup.machine, &active, &track.passage, setup.seed, noise).y;
-                    track.passage.recorded(&y).to_vec()
+                let run = |record: &Run| {
+                    let y = simulate(&setup.machine, &active, &record.passage, setup.seed, noise).y;
+                    record.passage.recorded(&y).to_vec()
                 };
-                setup.tracks.iter().map(run).collect()
+                setup.records.iter().map(run).collect()
             }
         }
     };
