@@ -24,7 +24,7 @@ missing() {
     END { show() }'
 }
 
-# Runs a part on so many threads. Told that its time is up, it keeps what is finished and returns 3; it goes on when it is run again.
+# Runs a part on so many threads. Signalled that its time is up, it keeps what is finished and returns 3; it goes on when it is run again.
 # With SECONDS, it is reported after them.
 run_part() {
   local number=$1 threads=$2 seconds=${3:-} from=() with=() clock='' code=0 status
@@ -37,7 +37,7 @@ run_part() {
   "${with[@]}" "$switchback" "$scenario" --shard "$number/$parts" "${from[@]}" --threads "$threads" --yes --quiet \
     --out "$place/part-$number" &
   running=$!
-  # Told before it ran.
+  # Signalled before it ran.
   [ -z "$signalled" ] || kill -TERM "$running" 2> /dev/null || true
   if [ -n "$seconds" ]; then
     (trap 'kill "$!"' TERM; sleep "$seconds" & wait "$!" && kill -TERM "$running") > /dev/null 2>&1 &

@@ -34,7 +34,7 @@ is_known() {
   [ -e "$place/job" ] && hq --output-mode=json job info "$(cat "$place/job")" 2> /dev/null | grep -qF "$place"
 }
 
-# Runs one part. Told that its time is up, it goes on in another turn.
+# Runs one part. Signalled that its time is up, it goes on in another turn.
 part() {
   local code=0
   exec 2>&1

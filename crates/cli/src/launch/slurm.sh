@@ -27,7 +27,7 @@ submit() {
     "what they say is in $place/log"
 }
 
-# Runs one part. Told that its time is up, it is put back into the queue, where it goes on.
+# Runs one part. Signalled that its time is up, it is put back into the queue, where it goes on.
 part() {
   local number=$(($1 + SLURM_ARRAY_TASK_ID)) code=0
   run_part "$number" "${SLURM_CPUS_PER_TASK:-1}" || code=$?

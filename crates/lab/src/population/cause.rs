@@ -126,8 +126,8 @@ impl Cause {
 
 /// The nominal predictions as signals: what is left of the records is the change from these.
 pub(super) fn nominal(setup: &Setup) -> Vec<Signals> {
-    let one = |record: &super::setup::Run| Signals { v: Vec::new(), y: record.nominal.clone(), moved: None };
-    setup.records.iter().map(one).collect()
+    let one = |run: &super::setup::Run| Signals { v: Vec::new(), y: run.nominal.clone(), moved: None };
+    setup.runs.iter().map(one).collect()
 }
 
 impl Wanted {

@@ -108,19 +108,19 @@ impl Candidate {
         let is_measured = self.setup.family == Family::Measured;
         let change =
             (!is_measured).then(|| self.anew.parameters(&Setup::change(&nominal(&self.setup), &self.before)));
-        let one = |(record, signals): (&super::setup::Run, &Signals)| {
-            let mut y = record.nominal.clone();
+        let one = |(run, signals): (&super::setup::Run, &Signals)| {
+            let mut y = run.nominal.clone();
             if let Some(moved) = &signals.moved {
                 y.iter_mut().zip(moved).for_each(|(y, m)| *y += m);
             }
             if let Some(change) = &change {
-                let columns = derivatives(&self.setup.machine, self.setup.order, &record.passage.v);
+                let columns = derivatives(&self.setup.machine, self.setup.order, &run.passage.v);
                 for (column, step) in columns.iter().zip(change.iter()) {
-                    y.iter_mut().zip(record.passage.recorded(column)).for_each(|(y, c)| *y += step * c);
+                    y.iter_mut().zip(run.passage.recorded(column)).for_each(|(y, c)| *y += step * c);
                 }
             }
             y
         };
-        self.setup.records.iter().zip(&self.put_in.signals).map(one).collect()
+        self.setup.runs.iter().zip(&self.put_in.signals).map(one).collect()
     }
 }

@@ -49,7 +49,7 @@ pub(super) fn laboratory(seed: u64) -> Setup {
         borders: machine.shape.name(),
         machine,
         own: Vec::new(),
-        records: passages.into_iter().map(run).collect(),
+        runs: passages.into_iter().map(run).collect(),
         seed,
         order,
         declared: Some((order, interval)),
@@ -57,7 +57,7 @@ pub(super) fn laboratory(seed: u64) -> Setup {
         noise: 0.0,
     };
     finish(&mut setup);
-    setup.noise = setup.machine.noise_sd * setup.machine.noise_amplification() / spread(&setup.records);
+    setup.noise = setup.machine.noise_sd * setup.machine.noise_amplification() / spread(&setup.runs);
     setup
 }
 
@@ -73,14 +73,14 @@ pub(super) fn field(seed: u64, spared: &[&str]) -> Setup {
         borders: machine.shape.name(),
         machine,
         own,
-        records: generator.passages.into_iter().map(run).collect(),
+        runs: generator.passages.into_iter().map(run).collect(),
         seed,
         declared: None,
         labels: ("displacement [mm]".to_owned(), "force [N]".to_owned()),
         noise: 0.0,
     };
     finish(&mut setup);
-    setup.noise = setup.machine.noise_sd * setup.machine.noise_amplification() / spread(&setup.records);
+    setup.noise = setup.machine.noise_sd * setup.machine.noise_amplification() / spread(&setup.runs);
     setup
 }
 
@@ -115,7 +115,7 @@ pub(super) fn like(setup: &Setup, parts: &Parts, seed: u64) -> Option<Setup> {
         base: setup.base.clone(),
         labels: setup.labels.clone(),
         own: setup.own.clone(),
-        records: setup.records.iter().map(same).collect(),
+        runs: setup.runs.iter().map(same).collect(),
         seed,
         ..*setup
     };
@@ -135,7 +135,7 @@ pub(super) fn louder(setup: &mut Setup, factor: f64) {
 fn of_parts(parts: &Parts, seed: u64, rng: &mut ChaCha8Rng) -> Option<Setup> {
     let feedthrough = rng.random_bool(0.3);
     let machine = parts.machine()?;
-    let records = records(&machine, parts.slowest(), feedthrough, &mut stream(seed, Purpose::Drive));
+    let runs = runs(&machine, parts.slowest(), feedthrough, &mut stream(seed, Purpose::Drive));
     let mut setup = Setup {
         family: Family::Wide,
         base: Family::Wide.name().to_owned(),
@@ -143,7 +143,7 @@ fn of_parts(parts: &Parts, seed: u64, rng: &mut ChaCha8Rng) -> Option<Setup> {
         borders: parts.curves.kind.name(),
         machine,
         own: Vec::new(),
-        records,
+        runs,
         seed,
         declared: None,
         labels: ("position [mm]".to_owned(), "force [N]".to_owned()),
@@ -197,7 +197,7 @@ const RECORDS: [usize; 5] = [1, 2, 3, 4, 6];
 const OFTEN: [f64; 5] = [0.24, 0.32, 0.2, 0.18, 0.06];
 const SAMPLES: (f64, f64) = (300.0, 3500.0);
 
-fn records(machine: &Machine, slowest: f64, feedthrough: bool, rng: &mut ChaCha8Rng) -> Vec<Run> {
+fn runs(machine: &Machine, slowest: f64, feedthrough: bool, rng: &mut ChaCha8Rng) -> Vec<Run> {
     let count = RECORDS[weighted(rng, &OFTEN)];
     let is_long = rng.random_bool(0.02);
     let total = if is_long { log_uniform(rng, 8000.0, 20_000.0) } else { log_uniform(rng, 900.0, 5000.0) };
@@ -247,20 +247,20 @@ fn ahead(mut passage: Passage) -> Run {
 
 /// Simulates what the nominal system would do, and learns what the output reaches.
 pub(super) fn finish(setup: &mut Setup) {
-    let Setup { machine, records, seed, .. } = setup;
-    for record in &mut *records {
-        let y = simulate(machine, &[], &record.passage, *seed, Noise::None).y;
-        record.nominal = record.passage.recorded(&y).to_vec();
+    let Setup { machine, runs, seed, .. } = setup;
+    for run in &mut *runs {
+        let y = simulate(machine, &[], &run.passage, *seed, Noise::None).y;
+        run.nominal = run.passage.recorded(&y).to_vec();
     }
     let centre = machine.y_centre();
     machine.reach =
-        records.iter().flat_map(|t| &t.nominal).fold(0.0, |most, y| f64::max(most, (y - centre).abs()));
+        runs.iter().flat_map(|t| &t.nominal).fold(0.0, |most, y| f64::max(most, (y - centre).abs()));
 }
 
 /// Gives a machine of wide draws its noise, a share of the output's standard deviation: part in the equation, part in the output, and what the
 /// recorder of the input does.
 fn add_noise(setup: &mut Setup, noise: f64, rng: &mut ChaCha8Rng) {
-    let sd = noise * spread(&setup.records);
+    let sd = noise * spread(&setup.runs);
     let part = rng.random_range(0.1..1.0_f64);
     setup.machine.noise_sd = part * sd / setup.machine.noise_amplification();
     setup.noise = noise;

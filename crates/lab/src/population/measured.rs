@@ -102,14 +102,14 @@ fn windows(rig: &Rig, rng: &mut ChaCha8Rng) -> Option<Rig> {
 /// The records as they were measured.
 fn measured_setup(base: &MeasuredBase, rig: &Rig, seed: u64) -> Option<Setup> {
     let HostModel { machine, passages, .. } = HostModel::of(rig, &base.host).ok()?;
-    let record = |(passage, record): (Passage, &RigRecord)| Run {
+    let run = |(passage, record): (Passage, &RigRecord)| Run {
         passage,
         v: record.record.v().to_vec(),
         measured: Some(record.record.y().to_vec()),
         nominal: base.nominal.free_run(&record.record).y,
     };
-    let records: Vec<Run> = passages.into_iter().zip(&rig.records).map(record).collect();
-    Some(setup(Family::Measured, base, rig, (machine, records, seed)))
+    let runs: Vec<Run> = passages.into_iter().zip(&rig.records).map(run).collect();
+    Some(setup(Family::Measured, base, rig, (machine, runs, seed)))
 }
 
 /// The machine changed, or another one, on the measured input, with the nominal model's residuals in another order.
@@ -131,7 +131,7 @@ fn resampled_setup(
     let anew = resampled(rig, runs_of(&base.nominal), scramble(seed, 1)).ok()?;
     let louder = quieter * log_uniform(rng, 0.4, 2.0);
     let noise = machine.noise_sd * louder;
-    let records: Vec<Run> = passages
+    let runs: Vec<Run> = passages
         .into_iter()
         .zip(&anew.records)
         .map(|(passage, record)| Run {
@@ -141,17 +141,17 @@ fn resampled_setup(
             nominal: Vec::new(),
         })
         .collect();
-    let mut setup = setup(Family::Resampled, base, rig, (machine, records, seed));
+    let mut setup = setup(Family::Resampled, base, rig, (machine, runs, seed));
     made::finish(&mut setup);
     setup.machine.noise_sd = noise;
-    let scale = spread(&setup.records) / deviation(rig);
-    for (record, resampled) in setup.records.iter_mut().zip(&anew.records) {
-        let run = base.nominal.free_run(&resampled.record);
+    let scale = spread(&setup.runs) / deviation(rig);
+    for (run, record) in setup.runs.iter_mut().zip(&anew.records) {
+        let simulated = base.nominal.free_run(&record.record);
         let left =
-            resampled.record.y().iter().zip(&run.y).map(|(y, simulated)| louder * scale * (y - simulated));
-        record.measured = Some(record.nominal.iter().zip(left).map(|(y, r)| y + r).collect());
+            record.record.y().iter().zip(&simulated.y).map(|(y, simulated)| louder * scale * (y - simulated));
+        run.measured = Some(run.nominal.iter().zip(left).map(|(y, r)| y + r).collect());
     }
-    setup.noise = residual(&setup.records) / spread(&setup.records);
+    setup.noise = residual(&setup.runs) / spread(&setup.runs);
     Some(setup)
 }
 
@@ -159,15 +159,15 @@ fn setup(
     family: Family,
     base: &MeasuredBase,
     rig: &Rig,
-    (machine, records, seed): (Machine, Vec<Run>, u64),
+    (machine, runs, seed): (Machine, Vec<Run>, u64),
 ) -> Setup {
-    let noise = residual(&records) / spread(&records);
+    let noise = residual(&runs) / spread(&runs);
     Setup {
         family,
         base: base.name.clone(),
         machine,
         own: Vec::new(),
-        records,
+        runs,
         seed,
         order: base.nominal.structure().order.max(1),
         declared: None,
@@ -178,8 +178,8 @@ fn setup(
 }
 
 /// Root mean square of what the nominal prediction leaves of the measured output.
-fn residual(records: &[Run]) -> f64 {
-    let pairs = records.iter().flat_map(|t| t.measured.iter().flatten().zip(&t.nominal));
+fn residual(runs: &[Run]) -> f64 {
+    let pairs = runs.iter().flat_map(|t| t.measured.iter().flatten().zip(&t.nominal));
     let (sum, count) = pairs.fold((0.0, 0.0), |(s, n), (y, p)| (s + (y - p).powi(2), n + 1.0));
     (sum / f64::max(count, 1.0)).sqrt()
 }

@@ -29,7 +29,7 @@ const SMALL: f64 = 0.65;
 pub(super) fn add(setup: &mut Setup, spared: &[&str], rng: &mut ChaCha8Rng) -> Option<()> {
     let count = weighted(rng, &COUNTS);
     let size = if rng.random_bool(SMALL) { log_uniform(rng, 0.15, 1.0) } else { log_uniform(rng, 1.0, 6.0) };
-    let noise = setup.noise * spread(&setup.records);
+    let noise = setup.noise * spread(&setup.runs);
     for _ in 0..count {
         let (effect, is_foreign) = draw(rng);
         let law = one_of(rng, laws_of(effect));
@@ -64,9 +64,9 @@ pub(super) fn magnitude(
     for _ in 0..3 {
         let active = Active { law, amount: Amount { magnitude, shape }, slot };
         let (mut sum, mut count) = (0.0, 0.0);
-        for record in &setup.records {
-            let y = simulate(&setup.machine, &[active], &record.passage, setup.seed, Noise::None).y;
-            for (with, without) in record.passage.recorded(&y).iter().zip(&record.nominal) {
+        for run in &setup.runs {
+            let y = simulate(&setup.machine, &[active], &run.passage, setup.seed, Noise::None).y;
+            for (with, without) in run.passage.recorded(&y).iter().zip(&run.nominal) {
                 sum += (with - without).powi(2);
                 count += 1.0;
             }

@@ -56,14 +56,14 @@ impl Reidentification {
     /// None where the derivatives are not finite.
     pub(super) fn new(setup: &Setup) -> Option<Self> {
         let columns: Vec<Vec<Vec<f64>>> = setup
-            .records
+            .runs
             .iter()
-            .map(|record| {
-                let all = derivatives(&setup.machine, setup.order, &record.passage.v);
-                all.iter().map(|column| record.passage.recorded(column).to_vec()).collect()
+            .map(|run| {
+                let all = derivatives(&setup.machine, setup.order, &run.passage.v);
+                all.iter().map(|column| run.passage.recorded(column).to_vec()).collect()
             })
             .collect();
-        let usage = |record: usize| setup.records[record].passage.usage;
+        let usage = |record: usize| setup.runs[record].passage.usage;
         let is_judged = |record: usize| usage(record) == Usage::Holdout;
         let any = (0..columns.len()).any(is_judged);
         let fitted = Rows::new(&columns, |record| usage(record) == Usage::Fit);

@@ -12,7 +12,7 @@ use switchback_model::hysteresis::Interval;
 use switchback_model::record::{Record, RecordError};
 use switchback_model::rig::{Rig, RigRecord};
 
-/// One experiment of a setup.
+/// One run of an experiment.
 #[derive(Debug)]
 pub(super) struct Run {
     /// The input that acts, lead-in first.
@@ -49,7 +49,7 @@ pub(super) struct Setup {
     pub machine: Machine,
     /// What the machine has beside its nominal system.
     pub own: Vec<Active>,
-    pub records: Vec<Run>,
+    pub runs: Vec<Run>,
     pub seed: u64,
     /// Order that identification anew has.
     pub order: usize,
@@ -64,41 +64,41 @@ pub(super) struct Setup {
 impl Setup {
     /// The records with some causes.
     pub(super) fn signals(&self, active: &[Active]) -> Vec<Signals> {
-        self.records.iter().map(|record| self.record(record, active)).collect()
+        self.runs.iter().map(|run| self.signals_of(run, active)).collect()
     }
 
-    fn record(&self, record: &Run, active: &[Active]) -> Signals {
-        match &record.measured {
-            Some(y) => self.altered(record, y, active),
-            None => self.simulated(record, active),
+    fn signals_of(&self, run: &Run, active: &[Active]) -> Signals {
+        match &run.measured {
+            Some(y) => self.altered(run, y, active),
+            None => self.simulated(run, active),
         }
     }
 
-    fn simulated(&self, record: &Run, active: &[Active]) -> Signals {
+    fn simulated(&self, run: &Run, active: &[Active]) -> Signals {
         let all = [&self.own, active].concat();
-        let trace = simulate(&self.machine, &all, &record.passage, self.seed, Noise::Recorded);
-        let mut v = record.v.clone();
+        let trace = simulate(&self.machine, &all, &run.passage, self.seed, Noise::Recorded);
+        let mut v = run.v.clone();
         for Active { law, amount, slot } in &self.own {
-            let rng = stream(self.seed, Purpose::Effect { effect: *slot, record: record.passage.index });
-            let mut scene = Scene { machine: &self.machine, passage: &record.passage, amount: *amount, rng };
+            let rng = stream(self.seed, Purpose::Effect { effect: *slot, record: run.passage.index });
+            let mut scene = Scene { machine: &self.machine, passage: &run.passage, amount: *amount, rng };
             law.recording(&mut scene, &mut v);
         }
-        Signals { v, y: record.passage.recorded(&trace.y).to_vec(), moved: None }
+        Signals { v, y: run.passage.recorded(&trace.y).to_vec(), moved: None }
     }
 
-    fn altered(&self, record: &Run, measured: &[f64], active: &[Active]) -> Signals {
-        let (mut v, mut y) = (record.v.clone(), measured.to_vec());
-        let mut acting = record.passage.recorded(&record.passage.v).to_vec();
+    fn altered(&self, run: &Run, measured: &[f64], active: &[Active]) -> Signals {
+        let (mut v, mut y) = (run.v.clone(), measured.to_vec());
+        let mut acting = run.passage.recorded(&run.passage.v).to_vec();
         let mut is_moved = false;
         for one in active {
-            alter(&self.machine, &record.passage, (one, self.seed), (&mut v, &mut y));
+            alter(&self.machine, &run.passage, (one, self.seed), (&mut v, &mut y));
             if one.law.injection() == Injection::Recording {
                 let mut none = y.clone();
-                alter(&self.machine, &record.passage, (one, self.seed), (&mut acting, &mut none));
+                alter(&self.machine, &run.passage, (one, self.seed), (&mut acting, &mut none));
                 is_moved = true;
             }
         }
-        let moved = is_moved.then(|| self.moved(&record.passage, acting));
+        let moved = is_moved.then(|| self.moved(&run.passage, acting));
         Signals { v, y, moved }
     }
 
@@ -116,21 +116,21 @@ impl Setup {
     /// What identification has to explain: of measured records what the nominal prediction leaves; of made ones the output, since borders on a
     /// grid of knots are no more than close to the true ones, less what the recorder of the input does to a simulation.
     pub(super) fn unexplained(&self, before: &[Signals]) -> Vec<Vec<f64>> {
-        let one = |(record, signals): (&Run, &Signals)| -> Vec<f64> {
-            if record.measured.is_some() {
-                return signals.y.iter().zip(&record.nominal).map(|(y, n)| y - n).collect();
+        let one = |(run, signals): (&Run, &Signals)| -> Vec<f64> {
+            if run.measured.is_some() {
+                return signals.y.iter().zip(&run.nominal).map(|(y, n)| y - n).collect();
             }
-            let recorder: Vec<f64> = signals.v.iter().zip(&record.v).map(|(r, v)| r - v).collect();
+            let recorder: Vec<f64> = signals.v.iter().zip(&run.v).map(|(r, v)| r - v).collect();
             let rms = (recorder.iter().map(|d| d * d).sum::<f64>() / recorder.len() as f64).sqrt();
             if rms == 0.0 {
                 return signals.y.clone();
             }
-            let acting = record.passage.recorded(&record.passage.v).iter().zip(&recorder).map(|(v, d)| v + d);
+            let acting = run.passage.recorded(&run.passage.v).iter().zip(&recorder).map(|(v, d)| v + d);
             let acting = quiet(&acting.collect::<Vec<f64>>(), THRESHOLD * rms);
-            let moved = self.moved(&record.passage, acting);
+            let moved = self.moved(&run.passage, acting);
             signals.y.iter().zip(moved).map(|(y, m)| y - m).collect()
         };
-        self.records.iter().zip(before).map(one).collect()
+        self.runs.iter().zip(before).map(one).collect()
     }
 
     /// The rig that these signals make.
@@ -143,11 +143,11 @@ impl Setup {
         predicted: Option<Vec<Vec<f64>>>,
     ) -> Result<Rig, RecordError> {
         let mut predicted = predicted.map(Vec::into_iter);
-        let record = |(record, signals): (&Run, &Signals)| {
+        let record = |(run, signals): (&Run, &Signals)| {
             Ok(RigRecord {
-                name: record.passage.name.clone(),
-                role: record.passage.role,
-                usage: record.passage.usage,
+                name: run.passage.name.clone(),
+                role: run.passage.role,
+                usage: run.passage.usage,
                 record: Record::new(signals.v.clone(), signals.y.clone())?,
                 predicted: predicted.as_mut().and_then(Iterator::next),
             })
@@ -160,7 +160,7 @@ impl Setup {
             interval: self.declared.map(|(_, interval)| interval),
             input_label,
             output_label,
-            records: self.records.iter().zip(signals).map(record).collect::<Result<_, _>>()?,
+            records: self.runs.iter().zip(signals).map(record).collect::<Result<_, _>>()?,
         })
     }
 
@@ -178,8 +178,8 @@ impl Setup {
 }
 
 /// Standard deviation of the nominal output over all records.
-pub(super) fn spread(records: &[Run]) -> f64 {
-    let all = || records.iter().flat_map(|t| &t.nominal);
+pub(super) fn spread(runs: &[Run]) -> f64 {
+    let all = || runs.iter().flat_map(|t| &t.nominal);
     let count = all().count() as f64;
     let mean = all().sum::<f64>() / count;
     (all().map(|y| (y - mean).powi(2)).sum::<f64>() / count).sqrt()

@@ -93,18 +93,18 @@ fn the_projection_leaves_nothing_of_a_change_of_the_nominal_system() {
     let setup = made::wide(5, &[], 1.0).expect("a machine");
     let anew = reidentification::Reidentification::new(&setup).expect("derivatives");
     let run = |machine: &crate::generate::Machine| -> Vec<Vec<f64>> {
-        let run = |record: &setup::Run| {
+        let output = |run: &setup::Run| {
             let y = crate::generate::simulate::simulate(
                 machine,
                 &[],
-                &record.passage,
+                &run.passage,
                 1,
                 crate::generate::simulate::Noise::None,
             )
             .y;
-            record.passage.recorded(&y).to_vec()
+            run.passage.recorded(&y).to_vec()
         };
-        setup.records.iter().map(run).collect()
+        setup.runs.iter().map(output).collect()
     };
     let mut slower = setup.machine.clone();
     slower.a[0] *= 1.0 + 1e-4;

@@ -129,7 +129,7 @@ pub(super) fn sentences(report: &Report, differences: &Differences) -> Vec<Strin
             let largest = largest.join("; ");
             sentences.push(match off.len() {
                 count if is_imitation => format!(
-                    "Only {count} differences together bring {source} near the machine, which is no explanation but an imitation of one. The \
+                    "Only {count} differences together bring {source} near the machine: they imitate a cause, and none of them is one. The \
                      largest (the table has all): {largest}."
                 ),
                 count if count > SHOWN => format!("What differs: {largest}; {} more in the table.", count - SHOWN),

@@ -56,7 +56,7 @@ fn pair(row: Row, seed: u64) -> Option<TrainingPair> {
         effect: None,
     };
     let (mut in_a, mut in_b) = (None, None);
-    let noise = b.noise * spread(&b.records);
+    let noise = b.noise * spread(&b.runs);
     match row {
         Row::Noise => {
             let louder = (log_uniform(&mut rng, 0.3, 1.6) * one_of(&mut rng, &[-1.0, 1.0])).exp();
@@ -72,11 +72,11 @@ fn pair(row: Row, seed: u64) -> Option<TrainingPair> {
         match noise {
             Noise::Recorded => setup.signals(&active).into_iter().map(|signals| signals.y).collect(),
             Noise::None => {
-                let run = |record: &Run| {
-                    let y = simulate(&setup.machine, &active, &record.passage, setup.seed, noise).y;
-                    record.passage.recorded(&y).to_vec()
+                let output = |run: &Run| {
+                    let y = simulate(&setup.machine, &active, &run.passage, setup.seed, noise).y;
+                    run.passage.recorded(&y).to_vec()
                 };
-                setup.records.iter().map(run).collect()
+                setup.runs.iter().map(output).collect()
             }
         }
     };
