@@ -5,6 +5,7 @@ mod filter;
 mod frequency;
 mod noise_memory;
 mod polynomial;
+mod recurse;
 mod sum_variance;
 mod system;
 
@@ -17,6 +18,7 @@ pub use polynomial::is_stable;
 pub use polynomial::relative_coprimeness;
 pub use polynomial::settling_samples;
 pub use polynomial::spectral_radius;
+pub use recurse::recurse;
 pub use sum_variance::SumVariance;
 pub use system::LinearSystem;
 pub use system::SystemError;

@@ -92,6 +92,10 @@ impl Borders {
         }
     }
 
+    pub(super) fn has_the_knots_of(&self, places: &Places) -> bool {
+        self.curves.iter().zip(&places.knots).all(|(curve, knots)| curve.knots == *knots)
+    }
+
     fn each_place(&self, positions: &[f64]) -> impl Iterator<Item = [(u32, f64); 2]> {
         positions.iter().scan([0; 2], |near, &v| {
             let places = [0, 1].map(|side| self.curves[side].place_near(v, near[side]));
@@ -108,7 +112,7 @@ impl Borders {
 
     /// `(mean, half)` at positions, the places of which are those of these knots or are found anew.
     pub(super) fn along(&self, positions: &[f64], places: &Places) -> Vec<(f64, f64)> {
-        if self.curves.iter().zip(&places.knots).any(|(curve, knots)| curve.knots != *knots) {
+        if !self.has_the_knots_of(places) {
             return self.each_place(positions).map(|places| self.at_place(places)).collect();
         }
         places.each.iter().map(|&places| self.at_place(places)).collect()

@@ -2,7 +2,7 @@
 
 use super::delayed::delayed;
 use super::modes::Mode;
-use crate::linear::is_stable;
+use crate::linear::{is_stable, recurse};
 
 /// `x(t) = Σ bᵢ u(t − lag − delay − i) − Σ aᵢ x(t − 1 − i)` with `Σb = 1 + Σa`.
 #[derive(Debug, Clone, PartialEq)]
@@ -165,11 +165,7 @@ impl LinearPart {
                 x[t] -= a * before;
             }
         }
-        for t in order..x.len() {
-            let mut now = x[t];
-            self.a.iter().zip(x[..t].iter().rev()).for_each(|(a, before)| now -= a * before);
-            x[t] = now;
-        }
+        recurse(&self.a, &mut x);
         x
     }
 }

@@ -50,13 +50,18 @@ impl System {
 
     /// Where the working point is.
     pub fn path(&self, v: &[f64], span: Span) -> Path {
-        Path::of(v, (&self.borders, self.rule), &self.terms, span)
+        Path::of(v, (&self.borders, self.rule), (&self.terms, span), None)
+    }
+
+    /// The same where the path of another system for this input is known: what both share is not computed again.
+    pub fn path_beside(&self, v: &[f64], span: Span, known: &Path) -> Path {
+        Path::of(v, (&self.borders, self.rule), (&self.terms, span), Some(known))
     }
 
     /// The output along a path, which must be that of a system with the same terms and rule. What `beside` has, one value a sample or none, is
     /// added before the sensor.
     pub fn respond(&self, path: &Path, beside: &[f64]) -> Vec<f64> {
-        let Path { motion, operator, places, span } = path;
+        let Path { motion, operator, places, span, .. } = path;
         let along = self.borders.along(&motion.position, places);
         let point = |(t, (mean, half)): (usize, (f64, f64))| {
             mean + operator.z[t] * operator.width[t] * half + operator.added[t]
