@@ -57,6 +57,22 @@ impl Cells {
         range.map(value).collect()
     }
 
+    /// Adds the hats of a sample times a factor to its features.
+    #[inline]
+    pub(super) fn add_features(&self, t: usize, factor: f64, features: &mut [f64]) {
+        let Sample { weight, knot, next } = self.samples[t];
+        if next > 0 {
+            self.at(t).features().for_each(|(k, x)| features[k] += factor * x);
+            return;
+        }
+        let knot = knot as usize;
+        // The reference knot has no feature.
+        if knot > 0 {
+            features[knot - 1] += factor * (1.0 - weight);
+        }
+        features[knot] += factor * weight;
+    }
+
     pub(super) fn iter(&self) -> impl Iterator<Item = Cell> + '_ {
         (0..self.len()).map(|t| self.at(t))
     }

@@ -35,6 +35,7 @@ mod halving;
 mod identify;
 mod input_noise;
 mod jumps;
+mod lagged;
 mod limit;
 mod model;
 mod nested;

@@ -1,9 +1,10 @@
 //! Refinement: the parameters that minimise the error of a free run.
 
+use super::lagged::{Columns, Lagged};
 use super::problem::{Parameters, Segment, Structure};
 use super::rank_one::solve_symmetric;
 use nalgebra::{DMatrix, DMatrixView, DVector};
-use switchback_model::linear::is_stable;
+use switchback_model::linear::{is_stable, recurse};
 use switchback_model::noise_model::whitened;
 
 /// How hard a refinement tries.
@@ -34,12 +35,7 @@ pub(super) fn free_run(structure: Structure, theta: &Parameters, segment: &Segme
     let mut y = Vec::with_capacity(order + segment.len());
     y.extend_from_slice(&segment.y[segment.from - order..segment.from]);
     y.extend(driven(structure, theta, segment));
-    for t in order..y.len() {
-        let (past, now) = y.split_at_mut(t);
-        for (a, past) in theta.a.iter().zip(past.iter().rev()) {
-            now[0] -= a * past;
-        }
-    }
+    recurse(&theta.a, &mut y);
     y.split_off(order)
 }
 
@@ -168,60 +164,43 @@ pub(super) fn each_batch(
     let past_kept = n.max(whitening.len());
     let run = free_run(structure, theta, segment);
     let before = |t: usize| if t < segment.from { segment.y[t] } else { run[t - segment.from] };
-    let errors = whitened(free_run_errors(structure, theta, segment), whitening);
+    let errors = run.iter().zip(&segment.y[segment.from..segment.to]).map(|(p, y)| y - p).collect();
+    let errors = whitened(errors, whitening);
+    let first_input = segment.from - structure.memory();
+    let u = segment.cells.values(first_input..segment.to + structure.ahead(), &theta.f);
+    let recursion: Vec<f64> = theta.a.iter().map(|a| -a).collect();
     // Column t of the batch is ∂ŷ(t)/∂θ; the first columns are carried over from the batch before.
-    let mut rows = DMatrix::<f64>::zeros(p, past_kept + BATCH);
-    let mut filtered = DMatrix::<f64>::zeros(p, if whitening.is_empty() { 0 } else { BATCH });
+    let mut rows = Columns::zeros(p, past_kept + BATCH);
+    let mut filtered = Columns::zeros(p, if whitening.is_empty() { 0 } else { BATCH });
     let mut t = segment.from;
     while t < segment.to {
         let count = BATCH.min(segment.to - t);
         let error = DVector::from_column_slice(&errors[t - segment.from..t - segment.from + count]);
         for s in 0..count {
             let now = t + s;
-            let (past, present) = rows.as_mut_slice().split_at_mut(p * (past_kept + s));
-            let earlier = |i: usize| &past[p * (past_kept + s - 1 - i)..p * (past_kept + s - i)];
-            let present = &mut present[..p];
+            let present = rows.column_mut(past_kept + s);
             present.fill(0.0);
-            for (i, a) in theta.a.iter().enumerate() {
-                add_scaled(present, -a, earlier(i));
-                present[i] -= before(now - 1 - i);
+            for i in 0..n {
+                present[i] = -before(now - 1 - i);
             }
             for (i, b) in theta.b.iter().enumerate() {
-                let cell = segment.cells.at(structure.input(now, i));
-                present[n + i] += cell.value(&theta.f);
-                for (k, x) in cell.features() {
-                    present[n + nb + k] += b * x;
-                }
+                let input = structure.input(now, i);
+                present[n + i] = u[input - first_input];
+                segment.cells.add_features(input, *b, &mut present[n + nb..p - 1]);
             }
-            present[p - 1] += 1.0;
-            if !whitening.is_empty() {
-                let out = &mut filtered.as_mut_slice()[p * s..p * (s + 1)];
-                out.copy_from_slice(present);
-                for (i, d) in whitening.iter().enumerate() {
-                    add_scaled(out, *d, earlier(i));
-                }
-            }
+            present[p - 1] = 1.0;
         }
-        let batch =
-            if whitening.is_empty() { rows.columns(past_kept, count) } else { filtered.columns(0, count) };
-        visit(t, batch.as_view(), &error);
-        for i in 0..past_kept {
-            let column = rows.column(count + i).clone_owned();
-            rows.set_column(i, &column);
-        }
+        Lagged { coefficients: &recursion, first: past_kept, count }.recurse(&mut rows);
+        let batch = if whitening.is_empty() {
+            rows.view(past_kept, count)
+        } else {
+            Lagged { coefficients: whitening, first: past_kept, count }.filter(&rows, &mut filtered);
+            filtered.view(0, count)
+        };
+        visit(t, batch, &error);
+        rows.carry_over(count, past_kept);
         t += count;
     }
-}
-
-/// `y + a·x`, four at a time: written out, since a loop of unknown length is not made of vector instructions.
-#[inline(always)]
-fn add_scaled(y: &mut [f64], a: f64, x: &[f64]) {
-    let (fours, rest) = y.as_chunks_mut::<4>();
-    let (of_fours, of_rest) = x.as_chunks::<4>();
-    for (y, x) in fours.iter_mut().zip(of_fours) {
-        *y = [y[0] + a * x[0], y[1] + a * x[1], y[2] + a * x[2], y[3] + a * x[3]];
-    }
-    rest.iter_mut().zip(of_rest).for_each(|(y, x)| *y += a * x);
 }
 
 /// Weight of the penalty on rough curves, as a fraction of the output's energy: decides only what the data leave open.

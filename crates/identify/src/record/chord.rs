@@ -5,7 +5,7 @@ use super::fit::{Effort, moved};
 use super::sensitivities::{Differences, errors, filter_and_project};
 use super::stretch::Stretch;
 use nalgebra::{DMatrix, DVector};
-use switchback_model::system::{Quantity, Scale, System};
+use switchback_model::system::{Path, Quantity, Scale, System};
 
 /// Directions in which many quantities move the filtered run at one system, used for the systems near it: the chord method.
 ///
@@ -27,6 +27,8 @@ pub struct Chord<'a> {
     /// `S⁻¹VΛ^(−½)`: from coordinates by `Q` to quantities.
     to_quantities: DMatrix<f64>,
     stretches: &'a [Stretch],
+    /// Of the system at which derivatives are taken, one a record.
+    paths: Vec<Path>,
     criterion: &'a Criterion,
     scale: &'a Scale,
 }
@@ -51,12 +53,13 @@ impl<'a> Chord<'a> {
         stretches: &'a [Stretch],
         (criterion, scale): (&'a Criterion, &'a Scale),
     ) -> Self {
-        let jacobian = columns(system, quantities, stretches, (criterion, scale));
+        let paths: Vec<Path> = stretches.iter().map(|s| system.path(&s.v, s.span)).collect();
+        let jacobian = columns(system, quantities, (stretches, &paths), (criterion, scale));
         let size =
             DVector::from_fn(quantities.len(), |k, _| jacobian.column(k).norm().max(f64::MIN_POSITIVE));
         let mut scaled = jacobian;
         scaled.column_iter_mut().zip(size.iter()).for_each(|(mut column, size)| column /= *size);
-        let eigen = scaled.tr_mul(&scaled).symmetric_eigen();
+        let eigen = (scaled.transpose() * &scaled).symmetric_eigen();
         let shown: Vec<usize> =
             (0..quantities.len()).filter(|k| eigen.eigenvalues[*k] > LEAST_EIGENVALUE).collect();
         let eigenvalues = DVector::from_fn(shown.len(), |k, _| eigen.eigenvalues[shown[k]]);
@@ -67,7 +70,7 @@ impl<'a> Chord<'a> {
         let to_quantities =
             DMatrix::from_fn(quantities.len(), shown.len(), |i, k| rotation[(i, k)] / size[i]);
         let quantities = quantities.to_vec();
-        Self { quantities, basis, eigenvalues, to_quantities, stretches, criterion, scale }
+        Self { quantities, basis, eigenvalues, to_quantities, stretches, paths, criterion, scale }
     }
 
     /// The system of least deviance near a start, with that deviance: the quantities of the chord and those of `fresh` are free, all others
@@ -111,8 +114,8 @@ impl<'a> Chord<'a> {
 
     fn point(&self, system: System) -> Point {
         let mut error = Vec::new();
-        for stretch in self.stretches {
-            let mut own = [errors(stretch, &stretch.simulate(&system))];
+        for (stretch, path) in self.stretches.iter().zip(&self.paths) {
+            let mut own = [errors(stretch, &stretch.simulate_beside(&system, path))];
             filter_and_project(&system, stretch, &mut own, self.criterion);
             error.append(&mut own[0]);
         }
@@ -122,12 +125,13 @@ impl<'a> Chord<'a> {
     }
 
     fn equations(&self, point: &Point, fresh: &[Quantity]) -> Equations {
-        let columns = columns(&point.system, fresh, self.stretches, (self.criterion, self.scale));
+        let columns =
+            columns(&point.system, fresh, (self.stretches, &self.paths), (self.criterion, self.scale));
         let error = point.error.map(|e| self.criterion.drawn_in(e));
         Equations {
             along: self.basis.tr_mul(&error),
-            across: self.basis.tr_mul(&columns),
-            information: columns.tr_mul(&columns),
+            across: (columns.transpose() * &self.basis).transpose(),
+            information: columns.transpose() * &columns,
             gradient: columns.tr_mul(&error),
         }
     }
@@ -169,15 +173,15 @@ impl Equations {
 fn columns(
     system: &System,
     quantities: &[Quantity],
-    stretches: &[Stretch],
+    (stretches, paths): (&[Stretch], &[Path]),
     (criterion, scale): (&Criterion, &Scale),
 ) -> DMatrix<f64> {
     let differences = Differences::of(system, quantities, scale);
     let samples = stretches.iter().map(|s| s.v.len()).sum();
     let mut out = DMatrix::zeros(samples, quantities.len());
     let mut from = 0;
-    for stretch in stretches {
-        let path = system.path(&stretch.v, stretch.span);
+    for (stretch, known) in stretches.iter().zip(paths) {
+        let path = system.path_beside(&stretch.v, stretch.span, known);
         let run = stretch.respond(system, &path);
         let mut own = differences.columns(stretch, &path, &run);
         filter_and_project(system, stretch, &mut own, criterion);

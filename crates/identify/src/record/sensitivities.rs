@@ -131,7 +131,7 @@ impl<'a> Differences<'a> {
     pub(super) fn columns(&self, stretch: &Stretch, path: &Path, run: &[f64]) -> Vec<Vec<f64>> {
         let column = |(quantity, moved, step): &(&Quantity, System, f64)| {
             let other = if quantity.moves_the_path() {
-                stretch.simulate(moved)
+                stretch.simulate_beside(moved, path)
             } else {
                 stretch.respond(moved, path)
             };

@@ -44,6 +44,11 @@ impl Stretch {
         self.respond(system, &system.path(&self.v, self.span))
     }
 
+    /// The free run of a system where the path of another one on this record is known.
+    pub fn simulate_beside(&self, system: &System, known: &Path) -> Vec<f64> {
+        self.respond(system, &system.path_beside(&self.v, self.span, known))
+    }
+
     /// Makes the system's run exact for this record, of which `prediction` is the run of another source.
     #[must_use]
     pub fn carrying(&self, system: &System, prediction: &[f64]) -> Self {
