@@ -1,7 +1,7 @@
 //! A nominal system beside the records on which it is judged.
 
 use switchback_identify::record::{Criterion, Stretch, filter_and_project};
-use switchback_model::system::{Quantity, Scale, System, Term};
+use switchback_model::system::{Path, Quantity, Scale, System, Term};
 
 /// Blocks of samples over which a share of energy must repeat itself.
 const BLOCKS: usize = 8;
@@ -21,6 +21,8 @@ pub(super) struct Block {
 pub(super) struct Context<'a> {
     pub(super) base: &'a System,
     pub(super) stretches: &'a [Stretch],
+    /// Of the base, one a record.
+    paths: Vec<Path>,
     pub(super) scale: Scale,
     pub(super) blocks: Vec<Block>,
     /// Coordinates of the base that the fit has chosen.
@@ -36,6 +38,7 @@ impl<'a> Context<'a> {
         Self {
             base,
             stretches,
+            paths: stretches.iter().map(|s| base.path(&s.v, s.span)).collect(),
             scale: Scale::of(&base.linear, base.rule, &pairs),
             blocks: blocks(stretches, is_fitted),
             coordinates: Quantity::coordinates(base),
@@ -44,7 +47,7 @@ impl<'a> Context<'a> {
 
     /// The runs of a system on all records.
     pub(super) fn runs(&self, system: &System) -> Signal {
-        self.stretches.iter().map(|s| s.simulate(system)).collect()
+        self.stretches.iter().zip(&self.paths).map(|(s, path)| s.simulate_beside(system, path)).collect()
     }
 
     /// The measured output less a run.

@@ -32,7 +32,9 @@ impl Grams {
             .iter()
             .map(|block| {
                 let (j, z) = (stacked(base, *block), stacked(signals, *block));
-                [j.tr_mul(&j), j.tr_mul(&z), z.tr_mul(&z)]
+                // Products of matrices as such: `tr_mul` goes column by column.
+                let transposed = j.transpose();
+                [&transposed * &j, transposed * &z, z.transpose() * &z]
             })
             .collect();
         let sum = |k: usize, rows: usize, columns: usize| {
@@ -40,9 +42,10 @@ impl Grams {
         };
         let (jj, jz, zz) = (sum(0, p, p), sum(1, p, q), sum(2, q, q));
         let coefficients = solved(&jj, &jz);
+        let transposed = coefficients.transpose();
         let free = |[jj, jz, zz]: &[DMatrix<f64>; 3]| {
-            let cross = coefficients.tr_mul(jz);
-            zz - &cross - cross.transpose() + coefficients.tr_mul(&(jj * &coefficients))
+            let cross = &transposed * jz;
+            zz - &cross - cross.transpose() + &transposed * (jj * &coefficients)
         };
         let mut freed: Vec<DMatrix<f64>> = parts.iter().map(free).collect();
         let total = freed.iter().fold(DMatrix::zeros(q, q), |sum, part| sum + part);

@@ -143,7 +143,7 @@ fn orthonormal(columns: &[DVector<f64>], rows: usize) -> DMatrix<f64> {
     }
     let norms: Vec<f64> = columns.iter().map(|c| c.norm()).map(|n| if n > 0.0 { n } else { 1.0 }).collect();
     let scaled = DMatrix::from_columns(&columns.iter().zip(&norms).map(|(c, n)| c / *n).collect::<Vec<_>>());
-    let eigen = scaled.tr_mul(&scaled).symmetric_eigen();
+    let eigen = (scaled.transpose() * &scaled).symmetric_eigen();
     let good: Vec<usize> = (0..n).filter(|k| eigen.eigenvalues[*k] > LEAST).collect();
     let rotation = DMatrix::from_fn(n, good.len(), |i, k| {
         eigen.eigenvectors[(i, good[k])] / eigen.eigenvalues[good[k]].sqrt()
