@@ -26,6 +26,9 @@ impl Base {
         let open = Settings {
             order: rig.order,
             interval: rig.interval,
+            // As a diagnosis identifies its nominal model: intervals are not asked for.
+            whiten: false,
+            undersmooth: false,
             input_noise: false,
             ..Settings::new(InputMap::Borders)
         };
