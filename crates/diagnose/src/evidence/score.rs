@@ -21,93 +21,54 @@ pub(super) struct Score {
 /// Ridge of a group's coefficients, relative to the norms of its columns.
 const RIDGE: f64 = 1e-4;
 
-/// Inner products of a group's columns with each other and with the error, and the energy of the error.
-#[derive(Debug, Clone)]
-struct Products {
-    columns: DMatrix<f64>,
-    error: DVector<f64>,
-    energy: f64,
+/// Inner products of the error, first, and of a group's columns.
+fn of_group(gram: &DMatrix<f64>, group: &[usize]) -> DMatrix<f64> {
+    let at = |i: usize| if i == 0 { 0 } else { group[i - 1] };
+    DMatrix::from_fn(group.len() + 1, group.len() + 1, |i, j| gram[(at(i), at(j))])
 }
 
-impl Products {
-    fn of(gram: &DMatrix<f64>, group: &[usize]) -> Self {
-        Self {
-            columns: DMatrix::from_fn(group.len(), group.len(), |i, j| gram[(group[i], group[j])]),
-            error: DVector::from_fn(group.len(), |i, _| gram[(group[i], 0)]),
-            energy: gram[(0, 0)],
-        }
-    }
+/// `(H + ridge)⁻¹g`.
+fn coefficients(products: &DMatrix<f64>) -> DVector<f64> {
+    let n = products.nrows() - 1;
+    let mut h = products.view((1, 1), (n, n)).into_owned();
+    (0..n).for_each(|i| h[(i, i)] = h[(i, i)] * (1.0 + RIDGE) + 1e-10);
+    let right = products.column(0).rows(1, n).into_owned();
+    h.cholesky().map_or_else(|| DVector::zeros(n), |factor| factor.solve(&right))
+}
 
-    fn none(columns: usize) -> Self {
-        Self { columns: DMatrix::zeros(columns, columns), error: DVector::zeros(columns), energy: 0.0 }
-    }
-
-    fn plus(self, other: &Self) -> Self {
-        Self {
-            columns: self.columns + &other.columns,
-            error: self.error + &other.error,
-            energy: self.energy + other.energy,
-        }
-    }
-
-    fn less(&self, other: &Self) -> Self {
-        Self {
-            columns: &self.columns - &other.columns,
-            error: &self.error - &other.error,
-            energy: self.energy - other.energy,
-        }
-    }
-
-    /// `(H + ridge)⁻¹g`.
-    fn coefficients(&self) -> DVector<f64> {
-        let n = self.error.len();
-        let ridged = |i: usize, j: usize| match i == j {
-            true => self.columns[(i, j)] * (1.0 + RIDGE) + 1e-10,
-            false => self.columns[(i, j)],
-        };
-        let factor = DMatrix::from_fn(n, n, ridged).cholesky();
-        factor.map_or_else(|| DVector::zeros(n), |factor| factor.solve(&self.error))
-    }
-
-    /// `2cᵀg − cᵀHc`: the part of the error's energy that coefficients take.
-    fn taken(&self, c: &DVector<f64>) -> f64 {
-        let linear: f64 = self.error.iter().zip(c.iter()).map(|(g, c)| c * g).sum();
-        let row = |i: usize| c.iter().enumerate().map(|(j, cj)| cj * self.columns[(i, j)]).sum::<f64>();
-        let square: f64 = c.iter().enumerate().map(|(i, ci)| ci * row(i)).sum();
-        2.0 * linear - square
-    }
+/// `2cᵀg − cᵀHc`: the part of the error's energy that coefficients take.
+fn taken(products: &DMatrix<f64>, c: &DVector<f64>) -> f64 {
+    let along = |row: usize| (1..).zip(c.iter()).map(|(j, c)| c * products[(row, j)]).sum::<f64>();
+    let square: f64 = (1..).zip(c.iter()).map(|(i, c)| c * along(i)).sum();
+    2.0 * along(0) - square
 }
 
 /// The share that a group explains, and no more.
 pub(super) fn share(grams: &Grams, group: &[usize]) -> f64 {
-    let total = Products::of(&grams.total, group);
-    (total.taken(&total.coefficients()) / grams.energy()).clamp(0.0, 1.0)
+    let total = of_group(&grams.total, group);
+    (taken(&total, &coefficients(&total)) / grams.energy()).clamp(0.0, 1.0)
 }
 
 /// The score of a group.
 pub(super) fn score(grams: &Grams, group: &[usize]) -> Score {
     let energy = grams.energy();
-    let total = Products::of(&grams.total, group);
-    let blocks: Vec<Products> = grams.blocks.iter().map(|block| Products::of(block, group)).collect();
-    let c = total.coefficients();
-    let mut validated = 0.0;
-    let mut of_blocks = Vec::with_capacity(blocks.len());
-    for block in &blocks {
-        validated += block.taken(&total.less(block).coefficients());
-        of_blocks.push(block.taken(&c));
-    }
+    let total = of_group(&grams.total, group);
+    let blocks: Vec<DMatrix<f64>> = grams.blocks.iter().map(|block| of_group(block, group)).collect();
+    let c = coefficients(&total);
+    let validated: f64 = blocks.iter().map(|block| taken(block, &coefficients(&(&total - block)))).sum();
+    let of_blocks: Vec<f64> = blocks.iter().map(|block| taken(block, &c)).collect();
     let count = of_blocks.len() as f64;
     let mean = of_blocks.iter().sum::<f64>() / count;
     let variance = of_blocks.iter().map(|x| (x - mean).powi(2)).sum::<f64>() / (count - 1.0).max(1.0);
     let sum = |is_fitted: bool| {
         let parts = blocks.iter().zip(&grams.is_fitted).filter(|(_, f)| **f == is_fitted);
-        parts.fold(Products::none(group.len()), |sum, (part, _)| sum.plus(part))
+        parts.fold(DMatrix::zeros(total.nrows(), total.ncols()), |sum, (part, _)| sum + part)
     };
-    let (learnt, others) = (sum(true).coefficients(), sum(false));
+    let (learnt, others) = (coefficients(&sum(true)), sum(false));
     Score {
-        share: (total.taken(&c) / energy).clamp(0.0, 1.0),
+        share: (taken(&total, &c) / energy).clamp(0.0, 1.0),
         validated: validated / energy,
-        held_out: others.taken(&learnt) / others.energy.max(1e-12 * energy),
+        held_out: taken(&others, &learnt) / others[(0, 0)].max(1e-12 * energy),
         t: mean / ((variance / count).sqrt() + 1e-9 * energy),
         coefficient: c[0] / energy.sqrt(),
     }

@@ -35,7 +35,6 @@ mod halving;
 mod identify;
 mod input_noise;
 mod jumps;
-mod lagged;
 mod limit;
 mod model;
 mod nested;

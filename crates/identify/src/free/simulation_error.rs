@@ -1,11 +1,11 @@
 //! Refinement: the parameters that minimise the error of a free run.
 
-use super::lagged::{Columns, Lagged};
 use super::problem::{Parameters, Segment, Structure};
 use super::rank_one::solve_symmetric;
 use nalgebra::{DMatrix, DMatrixView, DVector};
 use switchback_model::linear::{is_stable, recurse};
 use switchback_model::noise_model::whitened;
+use switchback_noise::lanes::{Columns, Lagged};
 
 /// How hard a refinement tries.
 #[derive(Debug, Clone, Copy)]

@@ -1,8 +1,10 @@
 //! Arithmetic for eight replicates abreast, in the widest vectors that the processor has.
 
+mod lagged;
 mod lane;
 mod wide;
 
+pub use lagged::{Columns, Lagged};
 pub use lane::LANES;
 pub use lane::Lane;
 pub use wide::Work;

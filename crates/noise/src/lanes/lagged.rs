@@ -1,60 +1,63 @@
 //! Sums over earlier columns of a matrix, many rows at once.
 
+use super::wide::{Work, widest};
 use nalgebra::{Const, DMatrixView, Dyn};
-use switchback_noise::lanes::{Work, widest};
 
 /// Rows that are computed beside each other.
 const ABREAST: usize = 8;
 
 /// A matrix of consecutive samples, a column each, its rows filled up to a multiple of [`ABREAST`].
 #[derive(Debug, Clone)]
-pub(super) struct Columns {
+pub struct Columns {
     values: Vec<f64>,
     rows: usize,
     stride: usize,
 }
 
 impl Columns {
-    pub(super) fn zeros(rows: usize, columns: usize) -> Self {
+    /// So many rows and columns of zeros.
+    pub fn zeros(rows: usize, columns: usize) -> Self {
         let stride = rows.next_multiple_of(ABREAST);
         Self { values: vec![0.0; stride * columns], rows, stride }
     }
 
-    pub(super) fn column_mut(&mut self, k: usize) -> &mut [f64] {
+    /// One column.
+    pub fn column_mut(&mut self, k: usize) -> &mut [f64] {
         &mut self.values[self.stride * k..][..self.rows]
     }
 
     /// Consecutive columns.
-    pub(super) fn view(&self, first: usize, count: usize) -> DMatrixView<'_, f64> {
+    pub fn view(&self, first: usize, count: usize) -> DMatrixView<'_, f64> {
         let values = &self.values[self.stride * first..self.stride * (first + count)];
         let (shape, strides) = ((Dyn(self.rows), Dyn(count)), (Const::<1>, Dyn(self.stride)));
         DMatrixView::from_slice_with_strides_generic(values, shape.0, shape.1, strides.0, strides.1)
     }
 
     /// Moves columns from a place on to the first ones.
-    pub(super) fn carry_over(&mut self, from: usize, count: usize) {
+    pub fn carry_over(&mut self, from: usize, count: usize) {
         self.values.copy_within(self.stride * from..self.stride * (from + count), 0);
     }
 }
 
 /// `Σᵢ cᵢ x(t − i)`, `i` from 1, at some columns `t` of a matrix.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Lagged<'a> {
-    pub(super) coefficients: &'a [f64],
+pub struct Lagged<'a> {
+    /// `c`, of lag 1 first.
+    pub coefficients: &'a [f64],
     /// The first column at which the sum is taken; so many columns as there are coefficients lie before it.
-    pub(super) first: usize,
+    pub first: usize,
     /// Number of such columns.
-    pub(super) count: usize,
+    pub count: usize,
 }
 
 impl Lagged<'_> {
     /// `x(t) ← x(t) + Σᵢ cᵢ x(t − i)`, one column after the other.
-    pub(super) fn recurse(self, x: &mut Columns) {
+    pub fn recurse(self, x: &mut Columns) {
         widest(Recursion { lagged: self, x });
     }
 
     /// `z(k) ← x(t) + Σᵢ cᵢ x(t − i)` with `k` counted from the first `t`.
-    pub(super) fn filter(self, x: &Columns, z: &mut Columns) {
+    pub fn filter(self, x: &Columns, z: &mut Columns) {
         widest(Filter { lagged: self, x, z });
     }
 }
