@@ -1,9 +1,7 @@
 //! What identification anew would take of a change of the output, to first order.
 //!
 //! The nominal system's free run is linear in what little its parameters change, so that identification anew is a projection: the
-//! derivatives of the free run by `a`, `b` and the borders' values at knots, least squares over the fit records, what is left over the
-//! held-out ones. That costs some milliseconds; whoever identifies the rig can measure the size itself
-//! ([`TrainingRig::before`](super::TrainingRig::before)).
+//! derivatives of the free run by `a`, `b` and the borders' values at knots, least squares over the fit records, the remainder over the held-out ones.
 
 use super::setup::Setup;
 use crate::generate::effects::motion::directions;

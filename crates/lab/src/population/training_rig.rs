@@ -78,8 +78,7 @@ pub struct TrainingRig {
 }
 
 impl TrainingRig {
-    /// The size as the program's own identification has it: the model identified from `before`, its structure kept, against one identified
-    /// anew. Takes seconds, and may be far from the size to first order where the search ends elsewhere.
+    /// The size as the program's own identification has it: the model identified from `before`, its structure kept, against one identified anew.
     ///
     /// # Errors
     /// [`InjectionError`] where the records give no model or leave nothing.

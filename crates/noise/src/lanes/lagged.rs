@@ -127,7 +127,7 @@ mod tests {
             all.column_mut(k)
                 .iter_mut()
                 .enumerate()
-                .for_each(|(i, x)| *x = (1.7 * i as f64 + 0.9 * k as f64).sin());
+                .for_each(|(i, x)| *x = (1.7 * i as f64 + 0.9 * k as f64).rem_euclid(2.0) - 1.0);
         }
         all
     }
