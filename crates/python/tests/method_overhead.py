@@ -74,17 +74,17 @@ def text(replicates: int, command: list[str]) -> str:
 
 def of_command(folder: Path, replicates: int) -> tuple[float, float, float]:
     """Seconds of all processes, those of the command, and those of the estimator."""
-    (folder / "study.toml").write_text(text(replicates, [sys.executable, str(Path(__file__).resolve()), "answer", str(folder / "told")]))
+    (folder / "study.toml").write_text(text(replicates, [sys.executable, str(Path(__file__).resolve()), "answer", str(folder / "times")]))
     before = resource.getrusage(resource.RUSAGE_CHILDREN)
     arguments = [program_path(), "study.toml", "--threads", "1", "--quiet", "--out", "out", "--force"]
     subprocess.run(arguments, cwd=folder, check=True)
     after = resource.getrusage(resource.RUSAGE_CHILDREN)
-    told = json.loads((folder / "told").read_text())
+    times = json.loads((folder / "times").read_text())
     whole = after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
-    return whole, told["process"], told["own"]
+    return whole, times["process"], times["own"]
 
 
-def answer(told: Path) -> None:
+def answer(times: Path) -> None:
     """The other end: answers, and writes down how long it took whenever a hundred more were answered."""
     sys.path.insert(0, str(ROOT / "estimators"))
     from switchback_method import serve
@@ -94,7 +94,7 @@ def answer(told: Path) -> None:
     def estimate(request: Any) -> np.ndarray:
         found = nothing(request)
         if nothing.calls % 100 == 0 or nothing.calls <= 4:
-            told.write_text(json.dumps({"process": time.process_time(), "own": nothing.own}))
+            times.write_text(json.dumps({"process": time.process_time(), "own": nothing.own}))
         return found
 
     serve(estimate, version="1")

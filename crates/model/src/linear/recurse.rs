@@ -1,6 +1,6 @@
 //! The recursion of `1/A(q⁻¹)`.
 
-/// `x(t) ← x(t) − Σᵢ aᵢ x(t−i)` from the `n`-th sample on, `n` the number of coefficients; the samples before are those that came before.
+/// `x(t) ← x(t) − Σᵢ aᵢ x(t−i)` from the `n`-th sample on, `n` the number of coefficients; the first `n` samples are initial values.
 ///
 /// ```
 /// # use switchback_model::linear::recurse;

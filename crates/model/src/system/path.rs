@@ -18,7 +18,7 @@ pub struct Path {
 }
 
 impl Path {
-    /// The path of an input. Motion and places are those of a path known already where positions, rule and knots are.
+    /// The path of an input. Motion and places are shared with a known path of the same positions, rule and knots.
     pub(super) fn of(
         v: &[f64],
         (borders, rule): (&Borders, ReversalRule),

@@ -13,7 +13,7 @@ const NOTHING: f64 = 1e-6;
 pub(crate) struct Base {
     /// As it was identified.
     pub(super) identified: Identified,
-    /// Those of a diagnosis' nominal model, with what was chosen fixed for every identification anew.
+    /// Those of a diagnosis' nominal model, the chosen structure fixed for every identification anew.
     settings: Settings,
     /// `r` of each judged record, from the first sample that is simulated.
     left: Vec<Vec<f64>>,
