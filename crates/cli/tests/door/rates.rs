@@ -1,6 +1,7 @@
 //! Signals at rates of their own.
 
 use super::*;
+use switchback_io::rig::{ColumnNames, Sampling, read_input};
 
 /// The input at every `every`th row only, straight lines between.
 fn straight(every: usize) -> Vec<f64> {
@@ -76,6 +77,12 @@ fn signals_on_rows_of_their_own_are_joined() {
     assert_eq!(loaded.rig.sample_time, 0.01);
     assert!(signals(&loaded)[1].len() >= SAMPLES - 1, "{}", loaded.reported);
     assert!(loaded.reported.to_string().contains("at 100 Hz"), "{}", loaded.reported);
+    // A model runs on the same samples.
+    let bench = Bench::new().with("bench.csv", text);
+    let sampling = Sampling { sample_time: Some(0.01), resample: None };
+    let input = read_input(&bench.path("bench.csv"), &ColumnNames::default(), sampling, "switchback simulate")
+        .unwrap_or_else(|error| panic!("{}", switchback_io::output::plain(&error)));
+    assert_eq!((&input.v, input.y.as_ref()), (&signals(&loaded)[0], Some(&signals(&loaded)[1])));
 }
 
 #[test]

@@ -4,6 +4,7 @@ use super::cut::{self, Part};
 use super::divided::Divided;
 use super::plan::{Plan, PlannedRecord};
 use super::problem::RigProblem;
+use super::quantity::of_predictions;
 use super::reported::{self, Reported};
 use crate::input::stream;
 use std::collections::HashSet;
@@ -185,13 +186,16 @@ fn rig_records(divided: &Divided, record: &PlannedRecord, name: &str) -> Result<
     let Divided { measured, parts } = divided;
     let of = |values: &[f64], range: &Range<usize>| values[range.clone()].to_vec();
     let output = measured.y.as_deref().unwrap_or_default();
+    let factor = of_predictions(measured).unwrap_or(1.0);
+    let predicted =
+        |values: &[f64], range: &Range<usize>| values[range.clone()].iter().map(|y| factor * y).collect();
     let records = cut::names(name, parts).into_iter().zip(parts).map(|(name, part)| RigRecord {
         name,
         role: record.role,
         usage: part.usage,
         record: Record::new(of(&measured.v, &part.range), of(output, &part.range))
             .expect("rows are samples only where input and output are finite"),
-        predicted: measured.predicted.as_deref().map(|predicted| of(predicted, &part.range)),
+        predicted: measured.predicted.as_deref().map(|values| predicted(values, &part.range)),
     });
     Ok(records.collect())
 }

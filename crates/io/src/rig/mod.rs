@@ -28,6 +28,7 @@ mod manifest;
 mod plan;
 mod plausibility;
 mod problem;
+mod quantity;
 mod read;
 mod reported;
 mod request;

@@ -1,30 +1,10 @@
 //! Signals whose size or course no experiment of the kind is likely to have.
 
 use super::plan::PlannedRecord;
+use super::quantity::Unit;
 use switchback_model::rig::{Role, Usage};
 use switchback_table::signals::Measured;
 use switchback_table::table::Column;
-
-/// Units of one quantity, with their sizes.
-const UNITS: [(&str, &str, f64); 17] = [
-    ("length", "m", 1.0),
-    ("length", "cm", 1e-2),
-    ("length", "mm", 1e-3),
-    ("length", "um", 1e-6),
-    ("length", "µm", 1e-6),
-    ("length", "μm", 1e-6),
-    ("length", "nm", 1e-9),
-    ("force", "N", 1.0),
-    ("force", "kN", 1e3),
-    ("force", "mN", 1e-3),
-    ("voltage", "V", 1.0),
-    ("voltage", "mV", 1e-3),
-    ("angle", "rad", 1.0),
-    ("angle", "mrad", 1e-3),
-    ("angle", "deg", std::f64::consts::PI / 180.0),
-    ("angle", "°", std::f64::consts::PI / 180.0),
-    ("angle", "urad", 1e-6),
-];
 
 /// Ranges of one signal in two records that differ by more than this are rather those of two units.
 const FACTOR: f64 = 300.0;
@@ -47,8 +27,8 @@ pub(super) fn warnings(records: &[(&PlannedRecord, &Measured)]) -> Vec<String> {
     let sizes = signals.into_iter().filter_map(|(part, of)| other_size(&free, part, of));
     records
         .first()
-        .and_then(|(_, measured)| other_unit(measured))
         .into_iter()
+        .flat_map(|(_, measured)| other_unit(measured).into_iter().chain(other_quantity(measured)))
         .chain(sizes)
         .chain(alike_strokes(&free))
         .collect()
@@ -57,13 +37,23 @@ pub(super) fn warnings(records: &[(&PlannedRecord, &Measured)]) -> Vec<String> {
 /// Input and output are one quantity in two units.
 fn other_unit(measured: &Measured) -> Option<String> {
     let (input, output) = (measured.input(), measured.output()?);
-    let unit = |column: &Column| UNITS.into_iter().find(|(_, name, _)| column.unit.as_deref() == Some(name));
-    let ((quantity, _, here), (other, _, there)) = (unit(input)?, unit(output)?);
-    let factor = rounded((here / there).max(there / here));
-    (quantity == other && here != there).then(|| {
+    let factor = Unit::of(input)?.ratio(Unit::of(output)?).filter(|ratio| *ratio != 1.0)?;
+    let factor = rounded(factor.max(1.0 / factor));
+    Some(format!(
+        "`{}` and `{}` are one quantity in two units: the gain holds a factor of {factor}",
+        input.label(),
+        output.label()
+    ))
+}
+
+/// Predictions of another quantity than the output's.
+fn other_quantity(measured: &Measured) -> Option<String> {
+    let (prediction, output) = (measured.prediction()?, measured.output()?);
+    let ratio = Unit::of(prediction)?.ratio(Unit::of(output)?);
+    ratio.is_none().then(|| {
         format!(
-            "`{}` and `{}` are one quantity in two units: the gain holds a factor of {factor}",
-            input.label(),
+            "`{}` is predicted in a unit of another quantity than `{}`: check the columns and their units",
+            prediction.label(),
             output.label()
         )
     })

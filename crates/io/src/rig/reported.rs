@@ -3,6 +3,7 @@
 use super::divided::Divided;
 use super::doubts;
 use super::plan::{HELD_OUT, Plan};
+use super::quantity::of_predictions;
 use std::fmt::{self, Display};
 use switchback_model::rig::Usage;
 use switchback_table::signals::{Between, ClockSource, InputForm, Measured, Resampled, rounded, spikes};
@@ -95,7 +96,11 @@ fn columns(plan: &Plan, first: &Measured) -> String {
     let mut parts = vec![format!("input {}", label(selection.input))];
     parts.extend(selection.output.map(|k| format!("output {}", label(k))));
     parts.extend(selection.time.map(|k| format!("time {}", label(k))));
-    parts.extend(selection.prediction.map(|k| format!("prediction {}", label(k))));
+    let converted = match (of_predictions(first), first.output().and_then(|output| output.unit.as_deref())) {
+        (Some(_), Some(unit)) => format!(" (converted to {unit})"),
+        _ => String::new(),
+    };
+    parts.extend(selection.prediction.map(|k| format!("prediction {}{converted}", label(k))));
     let mut line = parts.join(", ");
     if !selection.rivals.is_empty() {
         let rivals: Vec<String> = selection.rivals.iter().map(|&k| label(k)).collect();

@@ -151,6 +151,11 @@ impl Measured {
         self.selection.output.map(|k| &self.table.columns[k])
     }
 
+    /// The column of a simulator's predictions.
+    pub fn prediction(&self) -> Option<&Column> {
+        self.selection.prediction.map(|k| &self.table.columns[k])
+    }
+
     /// Even samples with the table they come from.
     fn with_table(even: Even, mut table: Table, selection: Selection) -> Self {
         table.notes.extend(even.notes);

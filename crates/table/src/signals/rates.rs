@@ -257,6 +257,9 @@ fn blanks(
         Between::Hold => String::new(),
     };
     let note = rates(&format!("the input is {} between its values{unknown}", verb(how)));
+    // Rows of the input alone are no samples any more.
+    let is_sample = y.iter().map(|y| y.is_finite());
+    let values = values.into_iter().zip(is_sample).map(|(v, is)| if is { v } else { f64::NAN }).collect();
     table.columns[selection.input].values = values;
     Some(note)
 }
