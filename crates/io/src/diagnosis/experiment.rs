@@ -9,7 +9,7 @@ pub const NEXT_EXPERIMENT: &str = "next_experiment.csv";
 
 /// Whether a record would distinguish the rivals: their predictions differ by [`TELLING`] standard errors over all of it.
 pub fn separates(next: &NextExperiment) -> bool {
-    next.distance * (next.v.len() as f64).sqrt() >= TELLING
+    next.distance.is_finite() && next.distance * (next.v.len() as f64).sqrt() >= TELLING
 }
 
 /// Two predictions this many standard errors apart are rarely taken for each other.

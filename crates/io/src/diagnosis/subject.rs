@@ -102,7 +102,9 @@ pub enum SubjectError {
     },
     /// The model has another sample time than the rig.
     #[error("{file}: the model has a sample time of {model} s, but the rig of {rig} s")]
-    #[diagnostic(help("identify the model from records sampled as these are, or resample the records"))]
+    #[diagnostic(help(
+        "identify the model from records sampled as these are, or bring the records to the model's sample time: add `--resample --sample-time {model}`"
+    ))]
     SampleTime {
         /// The model file.
         file: String,

@@ -4,6 +4,7 @@ use schemars::{JsonSchema, Schema};
 use serde::Serialize;
 use std::fmt::Write;
 use switchback_diagnose::Effect;
+use switchback_io::diagnosis::digits;
 use switchback_io::identification::unit;
 use switchback_io::model::{Header, ModelFile, Run};
 use switchback_io::output::{stamped, stamped_schema};
@@ -53,10 +54,10 @@ fn outside_the_band(file: &ModelFile, input: &InputSeries, run: &Run) -> Option<
         unit => format!(" {unit}"),
     };
     Some(format!(
-        "only {:.1} % of the measured outputs lie within the 95 % band, and their middle is {:.3e}{unit} off the model's: check units, zero \
+        "only {:.1} % of the measured outputs lie within the 95 % band, and their middle is {}{unit} off the model's: check units, zero \
          and columns, and that the model is of this machine",
         100.0 * covered,
-        run.offset(y)?
+        digits(run.offset(y)?, 4)
     ))
 }
 
