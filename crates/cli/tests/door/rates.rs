@@ -80,8 +80,9 @@ fn signals_on_rows_of_their_own_are_joined() {
     // A model runs on the same samples.
     let bench = Bench::new().with("bench.csv", text);
     let sampling = Sampling { sample_time: Some(0.01), resample: None };
-    let input = read_input(&bench.path("bench.csv"), &ColumnNames::default(), sampling, "switchback simulate")
-        .unwrap_or_else(|error| panic!("{}", switchback_io::output::plain(&error)));
+    let input =
+        read_input(&bench.path("bench.csv"), &ColumnNames::default(), sampling, "switchback simulate")
+            .unwrap_or_else(|error| panic!("{}", switchback_io::output::plain(&error)));
     assert_eq!((&input.v, input.y.as_ref()), (&signals(&loaded)[0], Some(&signals(&loaded)[1])));
 }
 
