@@ -1,8 +1,8 @@
 //! What the numbers of a time column mean.
 
-use super::guess;
 use super::input_form::InputForm;
 use super::sampling::rounded;
+use super::spelling::simplified;
 use crate::table::{Column, DataProblem, Kind, unit};
 
 /// From a time column's numbers to seconds.
@@ -50,7 +50,7 @@ impl Clock {
             is_assumed: false,
             is_days: false,
         };
-        let by_name = guess::simplified(&column.name).rsplit(' ').next().and_then(unit_named);
+        let by_name = simplified(&column.name).rsplit(' ').next().and_then(unit_named);
         let is_day =
             DAYS.iter().any(|(low, high)| (*low..*high).contains(&first)) && median_step(raw) < SHORT;
         match &column.unit {

@@ -1,6 +1,7 @@
 //! Which column is which, where the header says so.
 
-use super::words;
+use super::spelling::{last_part, simplified};
+use super::words::{self, Words};
 use crate::table::{Column, Kind};
 
 /// What a column can be.
@@ -29,7 +30,7 @@ pub(super) enum Surety {
 }
 
 /// The words for a part.
-fn words(part: Part) -> &'static [&'static str] {
+fn words(part: Part) -> Words {
     match part {
         Part::Time => words::TIME,
         Part::Input => words::INPUT,
@@ -47,11 +48,11 @@ pub(super) fn surety(column: &Column, part: Part) -> Option<Surety> {
     let words = words(part);
     let name = simplified(&column.name);
     let bare = name.trim_end_matches(|c: char| c.is_ascii_digit() || c == ' ');
-    if words.contains(&name.as_str()) || words.contains(&bare) {
+    if words::has(words, &name) || words::has(words, bare) {
         return Some(Surety::Name);
     }
     // Single letters are no words of a longer name.
-    name.split(' ').any(|word| word.len() > 2 && words.contains(&word)).then_some(Surety::Word)
+    name.split(' ').any(|word| word.len() > 2 && words::has(words, word)).then_some(Surety::Word)
 }
 
 /// A column that is called a time, and its first cell, where its cells are none.
@@ -64,21 +65,23 @@ pub(super) fn unread_time(column: &Column) -> Option<(String, &str)> {
 /// Whether a column only counts the samples, perhaps anew from some on.
 pub(super) fn is_index(column: &Column) -> bool {
     let name = simplified(&column.name);
-    let is_named = words::INDEX.contains(&name.as_str())
+    let is_named = name.is_empty()
+        || words::has(words::INDEX, &name)
         || name.starts_with("column ")
         || name.starts_with("unnamed")
-        || name.split(' ').any(|word| words::COUNTER.contains(&word));
+        || name.split(' ').any(|word| words::has(words::COUNTER, word));
     is_named && counts(column)
 }
 
-/// Whether a column numbers the parts of a record, one after the other.
+/// Whether a column numbers the parts of a record, one after the other, or rises evenly through them.
 pub(super) fn is_part_number(column: &Column) -> bool {
-    let is_named = simplified(&column.name).split(' ').any(|word| words::PART.contains(&word));
-    let values = &column.values;
-    let steps = || values.windows(2).map(|pair| pair[1] - pair[0]);
+    let is_named = named(column).iter().any(|word| words::has(words::PART, word));
+    let finite: Vec<f64> = column.values.iter().copied().filter(|value| value.is_finite()).collect();
+    let mut steps = finite.windows(2).map(|pair| pair[1] - pair[0]);
+    let is_whole = || finite.iter().all(|value| value.fract() == 0.0);
     is_named
-        && steps().all(|step| step == 0.0 || step == 1.0)
-        && values.iter().all(|value| value.fract() == 0.0)
+        && (is_whole() && steps.all(|step| step == 0.0 || step == 1.0)
+            || is_ramp(column) && quantity(column) == Quantity::Unknown)
 }
 
 /// Whether nine steps of ten count one sample on, all values being whole.
@@ -123,13 +126,78 @@ pub(super) fn is_ramp(column: &Column) -> bool {
 pub(super) fn without(column: &Column, part: Part) -> Option<Vec<String>> {
     let name = simplified(&column.name);
     let (found, others): (Vec<&str>, Vec<&str>) =
-        name.split(' ').partition(|word| words(part).contains(word));
+        name.split(' ').partition(|word| words::has(words(part), word));
     (!found.is_empty()).then(|| others.into_iter().map(str::to_owned).collect())
 }
 
-/// Whether a column is what a controller gives out.
+/// Whether a column is what a controller gives out: by its own name, not by where it was logged.
 pub(super) fn is_of_controller(column: &Column) -> bool {
-    named(column).iter().any(|word| words::CONTROLLER.contains(&word.as_str()))
+    simplified(last_part(&column.name)).split(' ').any(|word| words::has(words::CONTROLLER, word))
+}
+
+/// Whether a column says where a machine should be, by its own name.
+pub(super) fn is_reference(column: &Column) -> bool {
+    simplified(last_part(&column.name)).split(' ').any(|word| words::has(words::REFERENCE, word))
+}
+
+/// What a signal is, by its words, else by its unit; commands of a place come before those of a speed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) enum Quantity {
+    Place,
+    Unknown,
+    Speed,
+    Effort,
+}
+
+/// What a signal is.
+pub(super) fn quantity(column: &Column) -> Quantity {
+    let own = simplified(last_part(&column.name));
+    let has = |lists: &[Words]| {
+        let mut own = own.split(' ').map(|word| word.trim_end_matches(|c: char| c.is_ascii_digit()));
+        own.any(|word| lists.iter().any(|list| words::has(list, word)))
+    };
+    let unit = column.unit.as_deref().unwrap_or_default();
+    let is_effort = || has(&[words::OUTPUT, words::DRIVE, words::EFFORT]) && own != "y" && own != "out";
+    match () {
+        () if has(&[words::SPEED, words::ANSWER]) => Quantity::Speed,
+        () if has(&[words::MOTION]) => Quantity::Place,
+        () if is_effort() => Quantity::Effort,
+        () if has(&[words::PLACE]) || words::has(words::UNITS_OF_MOTION, unit) => Quantity::Place,
+        () if words::has(words::UNITS_OF_SPEED, unit) => Quantity::Speed,
+        () if words::has(words::UNITS_OF_FORCE, unit) || words::has(words::UNITS_OF_FEED, unit) => {
+            Quantity::Effort
+        }
+        () => Quantity::Unknown,
+    }
+}
+
+/// Whether a column is in a unit of this list.
+pub(super) fn is_in(column: &Column, units: Words) -> bool {
+    column.unit.as_deref().is_some_and(|unit| words::has(units, unit))
+}
+
+/// Whether a column is what a sensor or a machine is fed with, which hardly moves.
+pub(super) fn is_feed(column: &Column) -> bool {
+    /// Standard deviation of a supply, as a share of its mean.
+    const RIPPLE: f64 = 0.05;
+    let is_named = named(column).iter().any(|word| words::has(words::FEED, word));
+    let is_electric = column.unit.is_none() || is_in(column, words::UNITS_OF_FEED);
+    let finite: Vec<f64> = column.values.iter().copied().filter(|value| value.is_finite()).collect();
+    let count = finite.len().max(1) as f64;
+    let mean = finite.iter().sum::<f64>() / count;
+    let variance = finite.iter().map(|x| (x - mean).powi(2)).sum::<f64>() / count;
+    is_named && is_electric && variance.sqrt() < RIPPLE * mean.abs()
+}
+
+/// Whether a column is what a controller computes from others, by its name.
+pub(super) fn is_deviation(column: &Column) -> bool {
+    let own = simplified(last_part(&column.name));
+    own.split(' ').any(|word| words::has(words::DEVIATION, word))
+}
+
+/// Whether a column is called as a term of a controller, and nothing else.
+pub(super) fn is_term(column: &Column) -> bool {
+    column.unit.is_none() && words::has(words::TERM, &simplified(last_part(&column.name)))
 }
 
 /// The words of a name.
@@ -139,39 +207,12 @@ pub(super) fn named(column: &Column) -> Vec<String> {
 
 /// Whether a column holds the other one's signal before it was converted to a unit: `Force [V]` beside `Force [N]`.
 pub(super) fn is_raw_form(column: &Column, other: &Column) -> bool {
-    let is_raw_unit =
-        |column: &Column| column.unit.as_deref().is_some_and(|unit| words::RAW_UNITS.contains(&unit));
+    let is_raw_unit = |column: &Column| is_in(column, words::RAW_UNITS);
     let plain = |column: &Column| -> Vec<String> {
         let name = named(column);
-        name.into_iter().filter(|word| !words::RAW.contains(&word.as_str())).collect()
+        name.into_iter().filter(|word| !words::has(words::RAW, word)).collect()
     };
     let has_raw_word = |column: &Column| plain(column).len() < named(column).len();
     let is_raw = |column: &Column| is_raw_unit(column) || has_raw_word(column);
     plain(column) == plain(other) && is_raw(column) && !is_raw(other)
-}
-
-/// Lower case, with single blanks for all that is neither letter nor digit, and between words joined like `loadCell`.
-pub(super) fn simplified(name: &str) -> String {
-    let mut simple = String::new();
-    let mut before = ' ';
-    for letter in name.chars() {
-        if letter.is_uppercase() && before.is_lowercase() {
-            simple.push(' ');
-        }
-        before = letter;
-        simple.extend(if letter.is_alphanumeric() { letter } else { ' ' }.to_lowercase());
-    }
-    simple.split_whitespace().map(apart).collect::<Vec<_>>().join(" ")
-}
-
-/// `sollposition` as two words, where the second is one for a signal.
-fn apart(word: &str) -> String {
-    let is_signal = |rest: &str| {
-        [words::MOTION, words::DRIVE, words::ANSWER, words::OUTPUT].iter().any(|all| all.contains(&rest))
-    };
-    let part = words::PREFIXES.iter().find_map(|prefix| {
-        let rest = word.strip_prefix(prefix)?;
-        is_signal(rest).then(|| format!("{prefix} {rest}"))
-    });
-    part.unwrap_or_else(|| word.to_owned())
 }

@@ -5,6 +5,7 @@ mod clock;
 mod clock_source;
 mod counter;
 mod counters;
+mod derived;
 mod even;
 mod faults;
 mod guess;
@@ -12,13 +13,20 @@ mod input_form;
 mod instants;
 mod measured;
 mod names;
+mod offer;
+mod pairs;
 mod rates;
+mod relations;
 mod request;
 mod resample;
 mod sampling;
 mod select;
+mod settle;
+mod spelling;
 mod spikes;
 mod taken;
+#[cfg(test)]
+mod tests;
 mod two_part_stamps;
 mod words;
 

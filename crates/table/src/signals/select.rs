@@ -1,9 +1,11 @@
 //! Which columns of a table are time, input and output.
 
-use super::causality::Precedence;
 use super::guess::{self, Part, Surety};
 use super::input_form::InputForm;
 use super::names::{ColumnNames, NO_TIME};
+use super::offer::Offer;
+use super::settle::{Settled, settle};
+use super::spelling::simplified;
 use crate::closest;
 use crate::table::{Column, DataProblem, Kind, Table, unit};
 
@@ -86,17 +88,21 @@ impl Selection {
             return Err(vec![DataProblem::NothingMoves { columns }]);
         }
         // Of many columns those that stand still are settings.
-        let offered = if moving.len() >= 2 { &moving } else { &signals };
-        let offer = Offer { table, signals: offered, input_form };
-        let (input, output, doubt) =
-            offer.settle(input, output, needs_output).map_err(|problem| vec![problem])?;
+        let offered = if moving.len() >= 2 { moving } else { signals.clone() };
+        let signals_proper: Vec<usize> =
+            offered.iter().copied().filter(|k| !guess::is_feed(column(k))).collect();
+        let offered = if signals_proper.len() >= 2 { signals_proper } else { offered };
+        let offer = Offer { table, signals: &offered, input_form };
+        let Settled { input, output, doubt, others } =
+            settle(&offer, (input, output), needs_output).map_err(|problem| vec![problem])?;
         let output = output.filter(|_| !has_no_output);
         let rival = |k: &usize| {
             Some(*k) != output
                 && *k != input
-                && [Part::Input, Part::Motion, Part::Output, Part::Command]
-                    .into_iter()
-                    .any(|part| guess::surety(column(k), part).is_some())
+                && (others.contains(k)
+                    || [Part::Input, Part::Motion, Part::Output, Part::Command]
+                        .into_iter()
+                        .any(|part| guess::surety(column(k), part).is_some()))
         };
         let rivals = signals.iter().copied().filter(rival).collect();
         Ok(Self { time, index, input, output, prediction, rivals, doubt })
@@ -105,12 +111,12 @@ impl Selection {
 
 /// The column that a name means: as it stands in the header, else without its unit, else in another case, else by position.
 fn find(table: &Table, asked: &str) -> Result<usize, DataProblem> {
-    let simple = guess::simplified(asked);
+    let simple = simplified(asked);
     let levels: [&dyn Fn(&Column) -> bool; 4] = [
         &|column| column.label() == asked,
         &|column| column.name == asked,
-        &|column| guess::simplified(&column.label()) == simple,
-        &|column| guess::simplified(&column.name) == simple,
+        &|column| simplified(&column.label()) == simple,
+        &|column| simplified(&column.name) == simple,
     ];
     for is_meant in levels {
         let found: Vec<usize> = (0..table.columns.len()).filter(|&k| is_meant(&table.columns[k])).collect();
@@ -195,219 +201,4 @@ fn is_other_clock(column: &Column) -> bool {
     name == Some(Surety::Name)
         || name.is_some() && (has_unit || guess::is_ramp(column))
         || column.kind == Kind::Stamp
-}
-
-/// The columns that can be input or output.
-struct Offer<'a> {
-    table: &'a Table,
-    signals: &'a [usize],
-    input_form: &'a InputForm,
-}
-
-/// Input, output, and why they may be the other way round.
-type Settled = (usize, Option<usize>, Option<String>);
-
-impl Offer<'_> {
-    fn settle(
-        &self,
-        input: Option<usize>,
-        output: Option<usize>,
-        needs_output: bool,
-    ) -> Result<Settled, DataProblem> {
-        let rest = |other: Option<usize>| self.signals.iter().copied().filter(move |k| Some(*k) != other);
-        let is_guessed = input.is_none() || output.is_none();
-        let is_none = input.is_none() && output.is_none();
-        let (mut input, mut output) = self.paired(input, output);
-        output = output.or_else(|| self.called(&[Part::Output, Part::Response], input));
-        input = input.or_else(|| self.called(&[Part::Input, Part::Command], output));
-        if input.is_none() && output.is_none() {
-            (input, output) = match (self.called(&[Part::Drive], None), self.called(&[Part::Answer], None)) {
-                (Some(drive), Some(answer)) if drive != answer => (Some(drive), Some(answer)),
-                _ => (None, None),
-            };
-        }
-        // One is known and one is left.
-        if let (Some(_), None) = (input, output) {
-            output = only(rest(input)).or_else(|| input.and_then(|input| self.answer_of(input)));
-        }
-        if let (None, Some(_)) = (input, output) {
-            let motion = || self.called(&[Part::Motion], output);
-            let drive = || self.called(&[Part::Drive], output);
-            input = motion().or_else(|| only(rest(output))).or_else(drive);
-        }
-        let mut doubt = None;
-        let shares = |pair: (Option<usize>, Option<usize>)| matches!(pair, (Some(input), Some(output)) if is_guessed && self.share_a_name(input, output));
-        if is_none && shares((input, output)) {
-            (input, output) = (None, None);
-        }
-        if let (None, None, [first, second], true) = (input, output, self.signals, needs_output) {
-            let settled = self.by_causality(*first, *second);
-            (input, output, doubt) = settled.map_or((None, None, None), |(input, output, doubt)| {
-                (Some(input), Some(output), Some(doubt))
-            });
-        }
-        if !needs_output && input.is_none() {
-            input = self.called(&[Part::Motion], None).or_else(|| only(rest(None)));
-        }
-        match (input, output) {
-            // Two columns of one name are distinguished by number only.
-            (Some(input), Some(output))
-                if is_guessed && doubt.is_none() && self.share_a_name(input, output) =>
-            {
-                Err(self.doubt(None, None))
-            }
-            (Some(input), output) if output.is_some() || !needs_output => Ok((input, output, doubt)),
-            (Some(input), None) if self.signals == [input] => {
-                Err(DataProblem::NotMeasured { input: self.table.columns[input].label() })
-            }
-            _ => Err(self.doubt(input, output)),
-        }
-    }
-
-    /// A command and its response, which are called alike but for that word: `target pos (5)` and `pos (5)`.
-    fn paired(&self, input: Option<usize>, output: Option<usize>) -> (Option<usize>, Option<usize>) {
-        let column = |k: usize| &self.table.columns[k];
-        let pairs = self.signals_and(input).into_iter().flat_map(|command| {
-            let base = guess::without(column(command), Part::Command);
-            self.signals_and(output).into_iter().filter_map(move |response| {
-                let (base, other) = (base.clone()?, column(response));
-                let is_other = response != command && guess::without(other, Part::Command).is_none();
-                let plain = guess::without(other, Part::Response).unwrap_or_else(|| guess::named(other));
-                (is_other && (plain == base || guess::named(other) == base)).then_some((command, response))
-            })
-        });
-        let is_meant = |given: Option<usize>, k: usize| given.is_none_or(|given| given == k);
-        let mut fitting =
-            pairs.filter(|(command, response)| is_meant(input, *command) && is_meant(output, *response));
-        match fitting.next() {
-            Some((command, response)) => (Some(command), Some(response)),
-            None => (input, output),
-        }
-    }
-
-    /// What moves by a command, called as it is but for such a word: `throttle_cmd` and `throttle_pos`. A position comes before a speed.
-    fn answer_of(&self, command: usize) -> Option<usize> {
-        let column = |k: usize| &self.table.columns[k];
-        let base = guess::without(column(command), Part::Command)?;
-        let moved = |part: Part| {
-            let is = |k: &usize| *k != command && guess::without(column(*k), part).as_ref() == Some(&base);
-            only(self.signals.iter().copied().filter(is))
-        };
-        moved(Part::Motion).or_else(|| moved(Part::Answer))
-    }
-
-    /// The signals, or the one that the user named.
-    fn signals_and(&self, given: Option<usize>) -> Vec<usize> {
-        given.map_or_else(|| self.signals.to_vec(), |given| vec![given])
-    }
-
-    /// Both directions, tried: the input is the one whose past says what the other does next. The order in the file decides where neither does.
-    fn by_causality(&self, first: usize, second: usize) -> Option<(usize, usize, String)> {
-        let column = |k: usize| &self.table.columns[k];
-        let rows: Vec<usize> = (0..self.table.places.len())
-            .filter(|&row| column(first).values[row].is_finite() && column(second).values[row].is_finite())
-            .collect();
-        let of = |k: usize| -> Vec<f64> { rows.iter().map(|&row| column(k).values[row]).collect() };
-        let precedence = Precedence::of(&of(first), &of(second));
-        if precedence.is_none() && self.table.has_header {
-            return None;
-        }
-        let (input, output) = match precedence {
-            Some(precedence) if !precedence.is_forward() => (second, first),
-            _ => (first, second),
-        };
-        let shown = |k: usize| match self.table.has_header && self.is_unique(k) {
-            true => format!("`{}`", column(k).label()),
-            false => format!("column {}", k + 1),
-        };
-        let why = match precedence {
-            Some(_) => format!(
-                "{} is taken for the input, since its past predicts {} better than the other way round",
-                shown(input),
-                shown(output)
-            ),
-            None => format!("{} is taken for the input, as the first", shown(input)),
-        };
-        let other = self.input_form.naming(&[("input", self.name(output)), ("output", self.name(input))]);
-        Some((
-            input,
-            output,
-            format!("no name says which column is the input: {why}; if that is wrong, {other}"),
-        ))
-    }
-
-    /// The column whose name says most surely that it is one of these parts, the first of several; the first part named counts most.
-    ///
-    /// Words that all signals share say nothing, a command is no output, and a signal in its unit is better than the same one in volts.
-    fn called(&self, parts: &[Part], taken: Option<usize>) -> Option<usize> {
-        let column = |k: usize| &self.table.columns[k];
-        let is_raw =
-            |k: usize| self.signals.iter().any(|&other| guess::is_raw_form(column(k), column(other)));
-        let is_out = parts.contains(&Part::Output);
-        let of = |k: usize, part: Part| {
-            let says_nothing = || self.is_shared(k, part);
-            let is_command = is_out
-                && guess::surety(column(k), Part::Command).is_some()
-                && !self.is_shared(k, Part::Command)
-                || is_out && guess::is_of_controller(column(k));
-            let surety = guess::surety(column(k), part).filter(|_| !is_command && !says_nothing())?;
-            Some((surety, !is_raw(k), std::cmp::Reverse(k)))
-        };
-        let free = || self.signals.iter().copied().filter(|k| Some(*k) != taken);
-        let of_part = |part: &Part| free().filter_map(|k| of(k, *part)).max();
-        // The whole name of any part counts more than a word.
-        let found: Vec<_> = parts.iter().filter_map(of_part).collect();
-        let named = found.iter().find(|(surety, ..)| *surety == Surety::Name);
-        named.or(found.first()).map(|(.., k)| k.0)
-    }
-
-    /// Whether the words by which a column would be this part stand in the names of all signals.
-    fn is_shared(&self, k: usize, part: Part) -> bool {
-        let name = guess::named(&self.table.columns[k]);
-        let Some(others) = guess::without(&self.table.columns[k], part) else { return false };
-        let mut deciding = name.iter().filter(|word| !others.contains(word));
-        let in_all = |word: &String| {
-            self.signals.iter().all(|&other| guess::named(&self.table.columns[other]).contains(word))
-        };
-        self.signals.len() > 1 && deciding.all(in_all)
-    }
-
-    /// By what a column is named on the command line.
-    fn name(&self, k: usize) -> String {
-        match self.table.has_header && self.is_unique(k) {
-            true => self.table.columns[k].name.clone(),
-            false => (k + 1).to_string(),
-        }
-    }
-
-    fn doubt(&self, input: Option<usize>, output: Option<usize>) -> DataProblem {
-        let role = match (input, output) {
-            (None, None) => "the input and which the output",
-            (None, _) => "the input",
-            _ => "the output",
-        };
-        // An example that guessed would be copied.
-        let name = |known: Option<usize>| known.map_or_else(|| "NAME".to_owned(), |k| self.name(k));
-        let wanted = [("input", name(input)), ("output", name(output))];
-        let remedy = if self.signals.len() < 2 {
-            "a record needs an input and an output, one number each in every row, beside the time".to_owned()
-        } else {
-            self.input_form.naming(&wanted)
-        };
-        DataProblem::Doubtful { role: role.to_owned(), known: self.table.listing(), remedy }
-    }
-
-    fn share_a_name(&self, a: usize, b: usize) -> bool {
-        let name = |k: usize| guess::simplified(&self.table.columns[k].name);
-        self.table.has_header && name(a) == name(b)
-    }
-
-    fn is_unique(&self, k: usize) -> bool {
-        let name = &self.table.columns[k].name;
-        !name.is_empty() && self.table.columns.iter().filter(|column| column.name == *name).count() == 1
-    }
-}
-
-fn only(mut columns: impl Iterator<Item = usize>) -> Option<usize> {
-    columns.next().filter(|_| columns.next().is_none())
 }

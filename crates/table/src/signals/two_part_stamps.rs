@@ -1,6 +1,6 @@
 //! Seconds in one column and their fraction in another, as ROS writes them: `stamp.sec` and `stamp.nanosec`.
 
-use super::guess::simplified;
+use super::spelling::simplified;
 use crate::table::{Column, Kind, Table};
 
 /// What the fraction's column is called behind a shared prefix, and its unit in nanoseconds.

@@ -1,0 +1,125 @@
+//! A command and its response, which are called alike but for that word: `target pos (5)` and `pos (5)`.
+
+use super::guess::{Quantity, quantity};
+use super::spelling::{last_part, simplified};
+use super::words::{self, Words};
+use crate::table::Table;
+
+/// How much two names say that they belong together, the most first.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) enum Likeness {
+    /// They differ by words for a command and a response only.
+    Whole,
+    /// So do the last parts of their paths.
+    Last,
+    /// `q_d` beside `q`.
+    Suffix,
+    /// `Position` beside `ActualPosition`.
+    Plain,
+}
+
+/// A command and what responds to it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) struct Commanded {
+    pub(super) command: usize,
+    pub(super) response: usize,
+    pub(super) likeness: Likeness,
+}
+
+/// The words of a column's name.
+struct Name {
+    column: usize,
+    whole: Vec<String>,
+    last: Vec<String>,
+    quantity: Quantity,
+}
+
+impl Name {
+    fn of(table: &Table, column: usize) -> Self {
+        let name = &table.columns[column].name;
+        let words = |name: &str| simplified(name).split(' ').map(str::to_owned).collect();
+        let quantity = quantity(&table.columns[column]);
+        Self { column, whole: words(name), last: words(last_part(name)), quantity }
+    }
+
+    /// Words for where a machine should be say more than those for what moves it.
+    fn is_reference(&self) -> bool {
+        self.whole.iter().any(|word| words::has(words::REFERENCE, word))
+    }
+}
+
+/// The commands among some columns with their responses among others, the likeliest first: places before speeds, these before forces and
+/// currents.
+pub(super) fn pairs(table: &Table, commands: &[usize], responses: &[usize]) -> Vec<Commanded> {
+    let names = |columns: &[usize]| columns.iter().map(|k| Name::of(table, *k)).collect::<Vec<_>>();
+    let (commands, responses) = (names(commands), names(responses));
+    let mut found: Vec<(bool, Quantity, bool, usize, Commanded)> = Vec::new();
+    for (order, command) in commands.iter().enumerate() {
+        let fitting = responses.iter().filter(|response| response.column != command.column);
+        let ranked = fitting.filter_map(|response| {
+            let likeness = likeness(command, response, table)?;
+            let shared = command.whole.iter().filter(|word| response.whole.contains(word)).count();
+            Some(((likeness, std::cmp::Reverse(shared)), response))
+        });
+        if let Some(((likeness, _), response)) = ranked.min_by_key(|(rank, _)| *rank) {
+            let pair = Commanded { command: command.column, response: response.column, likeness };
+            let quantity = command.quantity.min(response.quantity);
+            found.push((likeness == Likeness::Plain, quantity, !command.is_reference(), order, pair));
+        }
+    }
+    found.sort_by_key(|(is_plain, quantity, is_effort, order, _)| (*is_plain, *quantity, *is_effort, *order));
+    found.into_iter().map(|(.., pair)| pair).collect()
+}
+
+fn likeness(command: &Name, response: &Name, table: &Table) -> Option<Likeness> {
+    let all_of = |rest: &[&String], lists: &[Words]| {
+        rest.iter().all(|word| lists.iter().any(|list| words::has(list, word)))
+    };
+    let has = |rest: &[&String], list: Words| rest.iter().any(|word| words::has(list, word));
+    let is_pair = |command: &[String], response: &[String]| {
+        let (asked, found) = (apart_from(command, response), apart_from(response, command));
+        has(&asked, words::COMMAND)
+            && all_of(&asked, &[words::COMMAND, words::NEUTRAL, words::CONTROLLER])
+            && all_of(&found, &[words::RESPONSE, words::NEUTRAL])
+    };
+    if is_pair(&command.whole, &response.whole) {
+        return Some(Likeness::Whole);
+    }
+    let (asked, found) =
+        (apart_from(&command.whole, &response.whole), apart_from(&response.whole, &command.whole));
+    let is_numbered =
+        |rest: &[&String]| rest.iter().any(|word| word.ends_with(|end: char| end.is_ascii_digit()));
+    let has_path = command.last.len() < command.whole.len() && response.last.len() < response.whole.len();
+    let is_of_one = has_path && !is_numbered(&asked) && !is_numbered(&found);
+    let is_named = |last: &[String]| !last.iter().all(|word| words::has(words::COMMAND, word));
+    if is_of_one && is_named(&command.last) && is_pair(&command.last, &response.last) {
+        return Some(Likeness::Last);
+    }
+    let goes_with = || correlation(table, command.column, response.column) > 0.5;
+    if found.is_empty() && matches!(asked[..], [word] if word == "d") && goes_with() {
+        return Some(Likeness::Suffix);
+    }
+    let is_actual = has(&found, words::ACTUAL) && all_of(&found, &[words::ACTUAL, words::NEUTRAL]);
+    (asked.is_empty() && is_actual && goes_with()).then_some(Likeness::Plain)
+}
+
+/// The words of a name that are not in the other.
+fn apart_from<'n>(name: &'n [String], other: &[String]) -> Vec<&'n String> {
+    name.iter().filter(|word| !other.contains(word)).collect()
+}
+
+/// The correlation of two columns: a signal has none with its derivative.
+fn correlation(table: &Table, a: usize, b: usize) -> f64 {
+    /// Rows between which others are left out.
+    const LOOKED_AT: usize = 10_000;
+    let (a, b) = (&table.columns[a].values, &table.columns[b].values);
+    let every = (a.len() / LOOKED_AT).max(1);
+    let rows = (0..a.len()).step_by(every).filter(|row| a[*row].is_finite() && b[*row].is_finite());
+    let pairs: Vec<(f64, f64)> = rows.map(|row| (a[row], b[row])).collect();
+    let count = pairs.len().max(1) as f64;
+    let mean = pairs.iter().fold((0.0, 0.0), |sum, (a, b)| (sum.0 + a / count, sum.1 + b / count));
+    let of = |product: fn(f64, f64) -> f64| {
+        pairs.iter().map(|(a, b)| product(a - mean.0, b - mean.1)).sum::<f64>()
+    };
+    of(|a, b| a * b) / (of(|a, _| a * a) * of(|_, b| b * b)).sqrt().max(f64::MIN_POSITIVE)
+}
