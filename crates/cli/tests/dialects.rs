@@ -243,12 +243,10 @@ fn counts_since_1970_are_reported_by_their_size() {
 fn whole_numbers_without_a_unit_are_reported() {
     let text = timed("time", |k| (10 * k).to_string());
     let loaded = Bench::new().with("a.csv", &text).load(&["a.csv"]).expect("a good file");
-    assert_eq!(loaded.rig.sample_time, 10.0);
+    assert_eq!(loaded.rig.sample_time, 0.01);
     let reported = loaded.reported.to_string();
-    assert!(
-        reported.contains("taken as seconds; write the unit into the header, as in `time [ms]`"),
-        "{reported}"
-    );
+    assert!(reported.contains("`time` has no unit and is taken as ms, which makes 100 Hz"), "{reported}");
+    assert!(reported.contains("write the unit into the header, as in `time [ms]`"), "{reported}");
     assert!(reported.contains("--time none --rate HZ"), "{reported}");
 }
 

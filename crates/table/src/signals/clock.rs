@@ -3,6 +3,7 @@
 use super::input_form::InputForm;
 use super::sampling::rounded;
 use super::spelling::simplified;
+use super::time_of_day;
 use crate::table::{Column, DataProblem, Kind, unit};
 
 /// From a time column's numbers to seconds.
@@ -19,6 +20,10 @@ pub(super) struct Clock {
     is_assumed: bool,
     /// Whether numbers without a unit were taken as days.
     is_days: bool,
+    /// Whether numbers are times of day as HHMMSS.
+    is_time_of_day: bool,
+    /// A unit other than seconds that whole numbers without one were taken for.
+    guessed: Option<&'static str>,
 }
 
 /// Numbers of days: since 1899-12-30, as spreadsheets count them, from 1954 to 2119; since the year 0, as MATLAB does, from 1900 to 2190.
@@ -32,6 +37,12 @@ const LIKELY: [f64; 2] = [1.0 / 3600.0, 1e6];
 /// do so in the same year, while they passed 1e11 in 1973.
 const EPOCHS: [(f64, f64, &str); 3] =
     [(1e17, 1e-9, "nanoseconds"), (1e14, 1e-6, "microseconds"), (1e11, 1e-3, "milliseconds")];
+
+/// Units that a clock of whole numbers may count in.
+const COUNTED: [(f64, &str); 4] = [(1.0, "s"), (1e-3, "ms"), (1e-6, "us"), (1e-9, "ns")];
+/// Rates between which a unit is sought for a clock of whole numbers, and their middle: of two units the nearer one is likelier.
+const SOUGHT: [f64; 2] = [0.5, 1e6];
+const MIDDLE: f64 = 100.0;
 
 impl Clock {
     /// By the unit in the header, else by the size of the numbers.
@@ -49,12 +60,20 @@ impl Clock {
             epoch: None,
             is_assumed: false,
             is_days: false,
+            is_time_of_day: false,
+            guessed: None,
         };
         let by_name = simplified(&column.name).rsplit(' ').next().and_then(unit_named);
         let is_day =
             DAYS.iter().any(|(low, high)| (*low..*high).contains(&first)) && median_step(raw) < SHORT;
+        let is_time_of_day = || {
+            column.unit.as_deref().is_none_or(|unit| unit::seconds(unit) == Some(1.0))
+                && column.origin == 0
+                && time_of_day::is_time_of_day(raw)
+        };
         match &column.unit {
             _ if column.kind == Kind::Stamp => Ok(clock(1.0)),
+            _ if is_time_of_day() => Ok(Self { is_time_of_day: true, ..clock(1.0) }),
             Some(unit) => unit::seconds(unit).map(clock).ok_or_else(|| DataProblem::NoSampleTime {
                 reason: format!("`{unit}`, the unit of `{}`, is no time", column.label()),
                 remedy: format!(
@@ -71,9 +90,39 @@ impl Clock {
         }
     }
 
+    /// Whole numbers in steps of two or more, without a unit, in the one that fits the sample time given, else in one of a likely rate.
+    pub(super) fn counting(self, raw: &[f64], sample_time: Option<f64>) -> Self {
+        let step = median_step(raw);
+        let is_whole = || raw.iter().all(|stamp| stamp.fract() == 0.0);
+        if !self.is_assumed || !(2.0..1e12).contains(&step) || !is_whole() {
+            return self;
+        }
+        let rate = |unit: f64| 1.0 / (unit * step);
+        let found = match sample_time {
+            Some(given) => COUNTED.into_iter().find(|(unit, _)| (unit * step / given - 1.0).abs() < 0.3),
+            None => {
+                let far = |unit: f64| (rate(unit) / MIDDLE).ln().abs();
+                let likely =
+                    COUNTED.into_iter().filter(|(unit, _)| (SOUGHT[0]..=SOUGHT[1]).contains(&rate(*unit)));
+                likely.min_by(|a, b| far(a.0).total_cmp(&far(b.0)))
+            }
+        };
+        match found {
+            Some((unit, name)) if unit < 1.0 => {
+                Self { unit, is_assumed: false, guessed: sample_time.is_none().then_some(name), ..self }
+            }
+            _ => self,
+        }
+    }
+
     /// Seconds, from 1970 on or whatever instant the column counts from.
     pub(super) fn seconds(&self, stamp: f64) -> f64 {
-        self.unit * (stamp - self.origin)
+        if self.is_time_of_day { time_of_day::seconds(stamp) } else { self.unit * (stamp - self.origin) }
+    }
+
+    /// Seconds from an instant that clocks of this kind share.
+    pub(super) fn shared_seconds(&self, stamp: f64) -> f64 {
+        self.seconds(stamp) + self.unit * self.origin
     }
 
     /// What was assumed and may be wrong.
@@ -88,6 +137,9 @@ impl Clock {
                 "`{column}` is taken as days; write the unit into the header if it is another, as in `{column} [s]`"
             )];
         }
+        if self.is_time_of_day {
+            return vec![format!("`{column}` is taken as the time of day, HHMMSS in one number")];
+        }
         if self.is_assumed && sample_time >= 1.0 && is_whole() {
             return vec![format!(
                 "`{column}` is taken as seconds; write the unit into the header, as in `{column} [ms]`, or give {}",
@@ -97,10 +149,18 @@ impl Clock {
         Vec::new()
     }
 
-    /// A rate that no such machine is sampled at, in words.
+    /// A unit that was guessed, or a rate that no such machine is sampled at, in words.
     pub(super) fn doubt(&self, sample_time: f64, input_form: &InputForm) -> Option<String> {
         let [low, high] = LIKELY;
         let rate = 1.0 / sample_time;
+        if let Some(unit) = self.guessed {
+            let column = &self.column;
+            return Some(format!(
+                "`{column}` has no unit and is taken as {unit}, which makes {} Hz: write the unit into the header, as in `{column} [{unit}]`, or give {}",
+                rounded(rate),
+                input_form.without_time()
+            ));
+        }
         (!(low..=high).contains(&rate)).then(|| {
             format!(
                 "{} Hz, from `{}`, is no likely sample rate: write the unit of the column into the header, as in `time [ms]` or `time [d]`, or give {}",

@@ -128,7 +128,9 @@ impl Signals<'_> {
     fn clocked(&self, rows: &[usize], column: &Column) -> Result<Even, Fault> {
         let input_form = self.request.input_form;
         let raw: Vec<f64> = rows.iter().map(|&row| column.values[row]).collect();
+        let declared = self.request.sampling.sample_time;
         let clock = Clock::of(column, &raw, input_form).map_err(|problem| (None, problem))?;
+        let clock = if self.is_own_form(column) { clock } else { clock.counting(&raw, declared) };
         let seconds: Vec<f64> = raw.iter().map(|stamp| clock.seconds(*stamp)).collect();
         let instants = self.instants(rows, (column, &seconds))?;
         let rows: Vec<usize> = instants.kept.iter().map(|&k| rows[k]).collect();
@@ -150,6 +152,11 @@ impl Signals<'_> {
         let mut doubts = even.doubts;
         doubts.extend(clock.doubt(even.sample_time, input_form));
         Ok(Even { start: if even.start.is_nan() { start } else { even.start }, notes, doubts, ..even })
+    }
+
+    /// Whether the clock is the `t` beside `v` that the program itself writes, in seconds.
+    fn is_own_form(&self, clock: &Column) -> bool {
+        clock.name == "t" && self.column(self.selection.input).name == "v"
     }
 
     /// Stamps in order.

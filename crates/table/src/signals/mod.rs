@@ -27,6 +27,7 @@ mod spikes;
 mod taken;
 #[cfg(test)]
 mod tests;
+mod time_of_day;
 mod two_part_stamps;
 mod words;
 

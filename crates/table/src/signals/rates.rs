@@ -132,9 +132,11 @@ fn is_better(one: &[f64], other: &[f64], (y, share): (&[f64], f64)) -> bool {
 /// Seconds of a clock, from an instant that two of them share.
 fn seconds(column: &Column, origin: i128) -> Vec<f64> {
     let raw: Vec<f64> = column.values.iter().copied().filter(|t| t.is_finite()).collect();
-    let scale = Clock::of(column, &raw, &InputForm::Manifest).map_or(1.0, |clock| clock.unit);
+    let clock = Clock::of(column, &raw, &InputForm::Manifest).ok().map(|clock| clock.counting(&raw, None));
+    let scale = clock.as_ref().map_or(1.0, |clock| clock.unit);
     let ahead = (column.origin - origin) as f64 * if column.kind == Kind::Stamp { 1e-9 } else { scale };
-    column.values.iter().map(|t| scale * t + ahead).collect()
+    let seconds = |t: &f64| clock.as_ref().map_or(*t, |clock| clock.shared_seconds(*t)) + ahead;
+    column.values.iter().map(seconds).collect()
 }
 
 /// The clock that stands before a signal, the nearest of several.

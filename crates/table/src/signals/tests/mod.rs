@@ -1,5 +1,6 @@
 //! Which columns of made tables are taken, and what is said of them.
 
+mod clocks;
 mod data;
 mod names;
 

@@ -1,0 +1,57 @@
+//! Clocks of numbers without a unit.
+
+use super::*;
+
+fn timed(time: impl Fn(usize) -> f64, sample_time: Option<f64>) -> Measured {
+    let machine = Machine::new(1);
+    let stamps: Vec<f64> = (0..SAMPLES).map(time).collect();
+    let columns: [(&str, &[f64]); 3] =
+        [("timestamp", &stamps), ("travel", &machine.input), ("force", &machine.output)];
+    read(&columns, &ColumnNames::default(), sample_time).expect("a good clock")
+}
+
+#[test]
+fn whole_numbers_count_in_the_unit_of_a_likely_rate_and_that_is_doubted() {
+    for (step, unit, seconds) in
+        [(2500, "us", 0.0025), (1000, "us", 0.001), (5, "ms", 0.005), (20, "ms", 0.02), (100, "ms", 0.1)]
+    {
+        let measured = timed(|k| f64::from(84_213 + step * k as i32), None);
+        assert_eq!(measured.sample_time, seconds, "{step}");
+        let said = format!("`timestamp` has no unit and is taken as {unit}");
+        assert!(measured.doubts.iter().any(|doubt| doubt.contains(&said)), "{:?}", measured.doubts);
+    }
+}
+
+#[test]
+fn a_sample_time_that_was_given_settles_the_unit() {
+    for (step, seconds) in [(2500, 0.0025), (10, 10.0), (10, 0.01), (500, 0.5)] {
+        let measured = timed(|k| f64::from(step * k as i32), Some(seconds));
+        assert_eq!(measured.sample_time, seconds);
+        assert!(!measured.doubts.iter().any(|doubt| doubt.contains("no unit")), "{:?}", measured.doubts);
+    }
+}
+
+#[test]
+fn seconds_stay_seconds() {
+    let second = timed(|k| k as f64, None);
+    assert_eq!(second.sample_time, 1.0);
+    assert!(second.table.notes.iter().any(|note| note.contains("taken as seconds")));
+    assert_eq!(timed(|k| 0.5 * k as f64, None).sample_time, 0.5);
+    let machine = Machine::new(1);
+    let stamps: Vec<f64> = (0..SAMPLES).map(|k| 10.0 * k as f64).collect();
+    let own: [(&str, &[f64]); 3] = [("t", &stamps), ("v", &machine.input), ("y", &machine.output)];
+    let measured = read(&own, &ColumnNames::default(), None).expect("the program's own form");
+    assert_eq!((measured.sample_time, measured.doubts.len()), (10.0, 0));
+}
+
+#[test]
+fn times_of_day_in_one_number_are_read_over_the_minute() {
+    let clock = |k: usize| {
+        let second = 43_195.0 + 0.02 * k as f64;
+        let (hour, minute) = ((second / 3600.0).floor(), (second / 60.0).floor() % 60.0);
+        printed(10_000.0 * hour + 100.0 * minute + second % 60.0)
+    };
+    let measured = timed(clock, None);
+    assert!((measured.sample_time - 0.02).abs() < 1e-9 && measured.pieces.len() == 1);
+    assert!(measured.table.notes.iter().any(|note| note.contains("HHMMSS")), "{:?}", measured.table.notes);
+}
