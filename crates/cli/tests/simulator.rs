@@ -91,6 +91,12 @@ fn off(page: &Value) -> Vec<&str> {
     rows.filter(|row| row["differs"] == true).map(|row| row["what"].as_str().expect("a name")).collect()
 }
 
+/// The row of a value.
+fn row<'a>(page: &'a Value, what: &str) -> &'a Value {
+    let mut rows = page["differences"].as_array().expect("a list").iter();
+    rows.find(|row| row["what"] == what).unwrap_or_else(|| panic!("no {what}"))
+}
+
 #[test]
 fn a_simulator_that_is_a_sample_late_is_late_and_nothing_else() {
     let late = |y: &[f64]| (0..y.len()).map(|t| y[t.saturating_sub(1)]).collect();
@@ -125,9 +131,63 @@ fn a_turned_sign_and_another_unit_are_no_cause() {
     let (turned, words) = page(-1.0);
     assert_eq!((&turned["verdict"]["status"], off(&turned)), (&"parameters".into(), vec!["gain"]));
     assert!(words.contains("the sign of y_sim is turned"), "{words}");
+    // All values are the machine's: friction is positive.
+    let friction = row(&turned, "friction");
+    assert!(["in_a", "in_b"].iter().all(|side| (friction[*side].as_f64().unwrap() - 5.0).abs() < 0.2));
     let (thousand, words) = page(1000.0);
     assert_eq!(off(&thousand), ["gain"]);
     assert!(words.contains("compare the units of both"), "{words}");
+    assert!((row(&thousand, "friction")["in_b"].as_f64().unwrap() - 5.0).abs() < 0.2, "{thousand:#}");
+}
+
+#[test]
+fn predictions_in_another_unit_of_the_header_are_converted() {
+    let v = walk(4000, 5);
+    let y = machine(&v, 1.0);
+    let milli: Vec<f64> = y.iter().map(|y| 1000.0 * y).collect();
+    let folder = Folder::with_good_rig();
+    let text = table(&v, &y, Some(&milli));
+    folder.write("record.csv", &text.replacen("y_sim", "y_sim [mN]", 1));
+    let (code, words) = run(&folder, &["gap", "record.csv"]);
+    assert_eq!(code, Some(0), "{words}");
+    assert!(words.contains("`y_sim [mN]` (converted to N)"), "{words}");
+    assert!(off(&json(&folder, &["gap", "record.csv", "--json"])).is_empty(), "{words}");
+    folder.write("record.csv", &text.replacen("y_sim", "y_sim [mm]", 1));
+    let (_, words) = run(&folder, &["gap", "record.csv"]);
+    assert!(words.contains("a unit of another quantity"), "{words}");
+}
+
+/// A swept sine through a machine of second order with noise in its sensor; `[amplitude, last frequency, natural frequency, damping]`.
+fn swept([amplitude, last, natural, zeta]: [f64; 4], seed: u64) -> String {
+    let omega = std::f64::consts::TAU * natural * 0.005;
+    let (radius, angle) = (f64::exp(-zeta * omega), omega * f64::sqrt(1.0 - zeta * zeta));
+    let (a1, a2) = (-2.0 * radius * angle.cos(), radius * radius);
+    let (mut noise, mut before, mut earlier, mut last_v, mut side) = (random(seed), 0.0, 0.0, 0.0, 1.0);
+    let mut text = String::from("time [s],command,angle\n");
+    for k in 0..4000 {
+        let t = 0.005 * f64::from(k);
+        let v = amplitude * (std::f64::consts::TAU * (0.1 * t + (last - 0.1) / 40.0 * t * t)).sin();
+        side = if v == last_v { side } else { f64::signum(v - last_v) };
+        last_v = v;
+        let y = (1.0 + a1 + a2) * (v + 2.0 * side) - a1 * before - a2 * earlier;
+        (before, earlier) = (y, before);
+        let error = 0.2 * ((0..12).map(|_| noise()).sum::<f64>() - 6.0);
+        let _ = writeln!(text, "{t:.3},{v:.5},{:.4}", y + error);
+    }
+    text
+}
+
+#[test]
+fn dynamics_of_the_machine_itself_are_no_cause() {
+    let folder = Folder::with_good_rig();
+    for (k, machine) in
+        [[8.0, 5.0, 12.0, 0.6], [10.0, 5.0, 9.0, 0.5], [12.0, 4.0, 7.0, 0.6]].into_iter().enumerate()
+    {
+        folder.write("record.csv", &swept(machine, 40 + k as u64));
+        let page = json(&folder, &["gap", "record.csv", "--json"]);
+        let named = page["verdict"]["effects"].as_array().expect("a list");
+        assert!(named.iter().all(|e| e != "resonance" && e != "extra_pole"), "{machine:?} {page:#}");
+    }
 }
 
 #[test]

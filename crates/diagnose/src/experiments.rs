@@ -35,6 +35,10 @@ pub(crate) fn propose(
         .iter()
         .filter_map(|e| singles.iter().find(|s| s.effect_terms[0].effect == *e))
         .collect();
+    // A rival that was not fitted makes no prediction.
+    if rivals.len() < 2 {
+        return None;
+    }
     let scale = noise.max(1e-300).sqrt();
     let mut best: Option<NextExperiment> = None;
     for (kind, v) in inputs(dataset) {
@@ -65,7 +69,7 @@ pub(crate) fn propose(
             best = Some(NextExperiment {
                 kind,
                 v: scaled.v.iter().map(|v| dataset.v_low + dataset.v_width * v).collect(),
-                separates: verdict.class.clone(),
+                separates: rivals.iter().map(|r| r.effect_terms[0].effect).collect(),
                 distance: least,
             });
         }

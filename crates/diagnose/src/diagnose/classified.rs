@@ -46,7 +46,7 @@ pub(super) fn classified(
 ) -> Result<Option<Diagnosis>, DiagnoseError> {
     let Some(classification) = classification(rig, (records, settings), posterior)? else { return Ok(None) };
     let head = classification.head(settings);
-    let chosen = match structure(workers, records.clone(), None, settings)? {
+    let chosen = match structure(workers, (rig, records.clone()), None, settings)? {
         Choice::One(chosen) => chosen,
         // What changes only the noise moves no simulation.
         Choice::Either(steps, _) if head.first().is_some_and(|first| first.moves_no_simulation()) => steps,

@@ -192,7 +192,7 @@ pub(super) mod tests {
             records,
         };
         let dataset = Dataset::new(&rig).expect("a usable rig");
-        match structure(&Serial, dataset, Some(1), &Settings::default()).expect("a model") {
+        match structure(&Serial, (&rig, dataset), Some(1), &Settings::default()).expect("a model") {
             Choice::One(chosen) => Plan::new(&rig, &Model::Identify, &Settings::default(), chosen),
             Choice::Either(..) => panic!("the order is declared"),
         }

@@ -99,7 +99,7 @@ fn by_rules(
     declared: Option<usize>,
 ) -> Result<Diagnosis, DiagnoseError> {
     let plan = |chosen: Chosen| Plan::new(rig, &Model::Identify, settings, chosen);
-    let chosen = structure(workers, records.clone(), declared, settings)?;
+    let chosen = structure(workers, (rig, records.clone()), declared, settings)?;
     let (mut reported, others) = analyse(workers, chosen, &plan)?;
     if declared.is_none() {
         reported = with_room_for_dynamics(workers, reported, (records, &plan))?;
@@ -124,12 +124,17 @@ fn analyse(
     let reported = matches!(verdict.status, Status::Named | Status::Class);
     // No simulator sees noise that is asked for.
     let is_asked = verdict.effects.iter().any(|effect| steps.plan.settings.asked.contains(effect));
-    if is_asked
-        || reported && simulator.is_needless_beside(&steps.plan.dataset, &steps.conclusion.augmented.fit)
-    {
+    let is_needless =
+        reported && simulator.is_needless_beside(&steps.plan.dataset, &steps.conclusion.augmented.fit);
+    if is_asked || is_needless && !refit::shows_dynamics(verdict) {
         return Ok((steps, Vec::new()));
     }
-    let runs = Analysis::run(workers, plan(simulator.chosen())?);
+    let chosen = simulator.chosen();
+    // Dynamics that a simulator of another structure has without any effect are the machine's own.
+    if is_needless && !steps.does_the_same(&chosen) {
+        return Ok((steps, Vec::new()));
+    }
+    let runs = Analysis::run(workers, plan(chosen)?);
     // What a simulator leaves alone may be what it cannot see.
     Ok(match (verdict.status, runs.conclusion.verdict.status) {
         (Status::Unexplained, Status::None) => (steps, vec![runs]),

@@ -45,7 +45,7 @@ pub(super) fn compared(
         (Model::Against(_), Some(found)) => (with_runs(rig, found), Model::Predicted),
         _ => (rig.clone(), model),
     };
-    let chosen = match structure(workers, dataset, declared, settings)? {
+    let chosen = match structure(workers, (&rig, dataset), declared, settings)? {
         Choice::One(chosen) | Choice::Either(chosen, _) => chosen,
     };
     let plan = Plan::new(&rig, &model, &Settings { effects: Vec::new(), ..settings.clone() }, chosen)?;

@@ -45,6 +45,15 @@ pub struct Row {
     pub gain: f64,
 }
 
+/// Relative distance to a power of a thousand within which a factor is taken for one of units.
+const NEAR: f64 = 0.03;
+
+/// A gain that is a sign, a power of a thousand, or both: the sides measure in other units, and all values are in those of the machine.
+pub fn unit_factor(gain: f64) -> Option<f64> {
+    let factor = gain.signum() * libm::pow(1000.0, (libm::log10(gain.abs()) / 3.0).round());
+    (factor.is_finite() && factor != 1.0 && (gain / factor - 1.0).abs() < NEAR).then_some(factor)
+}
+
 /// All rows: those that differ first, by what the gap would grow by without them.
 pub(super) fn rows(context: Context<'_>, selected: &Selected, source: &[Stretch]) -> Vec<Row> {
     let (aligned, free) = with(context.base, &selected.differences);
@@ -56,6 +65,7 @@ pub(super) fn rows(context: Context<'_>, selected: &Selected, source: &[Stretch]
     let gap = before - selected.deviance;
     let own: Vec<Quantity> = quantities(context.base).collect();
     let own_errors = own_errors(context.base, source, context.scale, &own);
+    let scale = unit_factor(aligned.sensor.gain).unwrap_or(1.0);
     let mut rows: Vec<Row> = Vec::new();
     for (k, quantity) in all.iter().enumerate() {
         let differs = k < free.len();
@@ -72,16 +82,18 @@ pub(super) fn rows(context: Context<'_>, selected: &Selected, source: &[Stretch]
             _ => (in_a, in_b),
         };
         let gain = if differs { gain_of(context, selected, *quantity) } else { ((in_b - in_a) / se).powi(2) };
+        let unit = quantity.unit(&aligned);
+        let scale = if unit.is_of_output() && *quantity != Quantity::Offset { scale } else { 1.0 };
         let odds = 0.5 * (gain - price(context.samples, 1));
         rows.push(Row {
             what: quantity.name(&aligned),
             effect,
             kind,
-            in_a,
-            in_b,
-            se_a,
-            se: se.hypot(se_a),
-            unit: quantity.unit(&aligned),
+            in_a: scale * in_a,
+            in_b: scale * in_b,
+            se_a: scale.abs() * se_a,
+            se: scale.abs() * se.hypot(se_a),
+            unit,
             probability: 1.0 / (1.0 + (-odds).exp()),
             differs,
             closure: if differs && gap > 0.0 { gain / gap } else { 0.0 },

@@ -2,6 +2,7 @@
 
 pub(crate) mod dynamics;
 pub(crate) mod given;
+pub(crate) mod identified;
 pub(crate) mod identify;
 pub(crate) mod knots;
 pub(crate) mod order;

@@ -8,6 +8,7 @@ use crate::likelihood::engine::{Fit, FitContext, fit};
 use crate::likelihood::weights::weigh;
 use crate::model::augmented::AugmentedModel;
 use crate::model::stability::settles;
+use crate::nominal::identified::Identified;
 use crate::nominal::identify::{first_fit, identify};
 use crate::nominal::knots::{first_grid, refine};
 use crate::records::dataset::{Criterion, Dataset, ScaledRecord};
@@ -68,7 +69,7 @@ const NOISE: f64 = 2.0;
 /// Share of the innovations' variance predicted by their past, from which the equation error is not white for any use.
 const COLOURED: f64 = 0.1;
 /// Rounds of fitting as a simulator while structures are compared.
-const ROUNDS: usize = 10;
+pub(super) const ROUNDS: usize = 10;
 
 /// What is chosen besides the criterion.
 #[derive(Debug, Clone, Copy)]
@@ -93,7 +94,7 @@ impl Structure {
 
     /// Structures that could describe an effect of the dynamics, or with `is_late` a delay, simpler ones first.
     pub(crate) fn wider(self, is_late: bool) -> Vec<Self> {
-        let later = (1..=LATER).map(|by| Self { lead: self.lead - by, ..self });
+        let later = (1..=LATER).map(|by| self.at_lead(self.lead - by));
         let higher = (1..=HIGHER).map(|by| Self { order: self.order + by, ..self });
         later.filter(|_| is_late).chain(higher).collect()
     }
@@ -101,6 +102,11 @@ impl Structure {
     /// That of a model in the form of the paper.
     pub(crate) fn of_order(order: usize) -> Self {
         Self { order, lead: 0, begins: Begins::default() }
+    }
+
+    /// The same order at another lead.
+    pub(super) fn at_lead(self, lead: isize) -> Self {
+        Self { lead, ..self }
     }
 
     /// The records as this structure sees them.
@@ -139,7 +145,7 @@ pub(crate) fn declared(rig: &Rig, model: &Model) -> Result<Option<usize>, Diagno
 /// The structure of the nominal model: of the order declared, else chosen.
 pub(crate) fn structure(
     workers: &impl Workers,
-    dataset: Dataset,
+    (rig, dataset): (&Rig, Dataset),
     declared: Option<usize>,
     settings: &Settings,
 ) -> Result<Choice, DiagnoseError> {
@@ -150,7 +156,7 @@ pub(crate) fn structure(
             let structure = Structure::of_order(n);
             Ok(Choice::One(Chosen { dataset, fit, structure, reported: None }))
         }
-        None => choose(workers, &dataset, settings),
+        None => choose(workers, (rig, &dataset), settings),
     }
 }
 
@@ -159,7 +165,14 @@ pub(crate) fn structure(
 /// One-step criteria prefer high orders on real records, whose noise is never white, and put into `A` what they know of the
 /// noise. Where a fit of the free run itself simulates the records much better, the equation error is not what the model
 /// says.
-fn choose(workers: &impl Workers, dataset: &Dataset, settings: &Settings) -> Result<Choice, DiagnoseError> {
+///
+/// From a start one step ahead, white noise in the output keeps a simulator from its optimum: the structure that the identifier chooses starts from
+/// its model, too.
+fn choose(
+    workers: &impl Workers,
+    (rig, dataset): (&Rig, &Dataset),
+    settings: &Settings,
+) -> Result<Choice, DiagnoseError> {
     let attempts = workers.map(&structures(dataset, settings), |s| attempt(dataset, *s));
     let mut tried = Vec::new();
     let mut failure = None;
@@ -171,6 +184,10 @@ fn choose(workers: &impl Workers, dataset: &Dataset, settings: &Settings) -> Res
     }
     if tried.is_empty() {
         return Err(failure.unwrap_or_else(unstable));
+    }
+    let is_allowed = |s: Structure| s.order <= settings.max_order && (s.lead <= PRESENT || !settings.causal);
+    if let Some(identified) = Identified::of(rig).filter(|found| is_allowed(found.structure)) {
+        add(&mut tried, identified.structure, identified.simulator(dataset));
     }
     let steps =
         simplest(&tried, |t| t.one_step).map(|found| one_step(dataset, found.structure)).transpose()?;
@@ -254,7 +271,7 @@ fn white_share(fit: &Fit) -> f64 {
 }
 
 /// Each error counted for one.
-const SIMULATION: Criterion = Criterion::Simulation { share: 1.0 };
+pub(super) const SIMULATION: Criterion = Criterion::Simulation { share: 1.0 };
 
 fn unstable() -> DiagnoseError {
     DiagnoseError::Singular { reason: "every order tried gives an unstable model".into() }
@@ -275,6 +292,17 @@ fn structures(dataset: &Dataset, settings: &Settings) -> Vec<Structure> {
         }
     }
     all
+}
+
+/// A simulator beside those tried: in the place of one of its structure that simulates less well.
+fn add(tried: &mut Vec<Tried>, structure: Structure, simulator: Option<Fit>) {
+    let found = Tried { structure, one_step: f64::INFINITY, simulator };
+    let is_same = |t: &&mut Tried| (t.structure.order, t.structure.lead) == (structure.order, structure.lead);
+    match tried.iter_mut().find(is_same) {
+        Some(known) if found.simulated() < known.simulated() => known.simulator = found.simulator,
+        Some(_) => {}
+        None => tried.push(found),
+    }
 }
 
 /// The first structure that is as good as the best; nothing where none is any good.

@@ -30,6 +30,20 @@ pub enum Unit {
     Frequency,
 }
 
+impl Unit {
+    /// Whether a value of it scales with the output.
+    pub fn is_of_output(self) -> bool {
+        matches!(
+            self,
+            Self::Output
+                | Self::OutputPerInput
+                | Self::OutputPerSquaredInput
+                | Self::OutputPerSpeed
+                | Self::OutputPerAcceleration
+        )
+    }
+}
+
 /// A parameter of a law.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Parameter {

@@ -4,7 +4,7 @@ use super::probability::probability;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use switchback_diagnose::Status;
-use switchback_diagnose::differences::{Differences, RowKind, is_imitation};
+use switchback_diagnose::differences::{Differences, RowKind, is_imitation, unit_factor};
 use switchback_io::diagnosis::{Report, ReportedDifference, Source, Units, digits, whole_percent};
 use switchback_io::output::{columns, wrapped};
 
@@ -202,15 +202,10 @@ fn difference(row: &ReportedDifference, source: &str) -> String {
     }
 }
 
-/// Relative distance to a power of a thousand within which a factor is taken for one of units.
-const NEAR: f64 = 0.03;
-
 /// A factor that units make, where the gain is one.
 fn known_factor(row: &ReportedDifference) -> Option<String> {
-    let factor = (row.what == "gain").then_some(row.in_b.abs())?;
-    let thousands = (factor.log10() / 3.0).round();
-    let is_near = thousands != 0.0 && (factor / 10f64.powf(3.0 * thousands) - 1.0).abs() < NEAR;
-    is_near.then(|| format!("A factor of 10^{:.0}: compare the units of both.", 3.0 * thousands))
+    let factor = unit_factor(row.in_b).filter(|_| row.what == "gain")?.abs();
+    (factor != 1.0).then(|| format!("A factor of 10^{:.0}: compare the units of both.", factor.log10()))
 }
 
 /// What to set, in an imperative.
