@@ -60,12 +60,15 @@ impl Delimiter {
 
     /// The first cell, and what stands behind the delimiter that ends it.
     fn first(self, line: &str) -> (&str, Option<&str>) {
-        let start = line.trim_start_matches(|c: char| c.is_whitespace() && Self::Sign(c) != self);
+        // Most cells begin at once.
+        let start = match line.as_bytes().first() {
+            Some(b'!'..=b'~') => line,
+            _ => line.trim_start_matches(|c: char| c.is_whitespace() && Self::Sign(c) != self),
+        };
         if let Some(quoted) = start.strip_prefix('"')
-            && let Some(end) = quoted.find('"')
+            && let Some(split) = self.closed(quoted)
         {
-            let rest = quoted[end + 1..].trim_start_matches(' ');
-            return (quoted[..end].trim(), self.behind(rest, &quoted[end + 1..]));
+            return split;
         }
         match self {
             Self::Sign(sign) => match start.split_once(sign) {
@@ -79,10 +82,38 @@ impl Delimiter {
         }
     }
 
-    fn behind<'t>(self, rest: &'t str, unskipped: &'t str) -> Option<&'t str> {
+    /// The cell that a quotation mark closes, and what follows; two of them are one within the cell. None where what follows the mark is no delimiter:
+    /// it belongs to the cell then, as the one at its beginning does.
+    fn closed(self, quoted: &str) -> Option<(&str, Option<&str>)> {
+        let mut from = 0;
+        loop {
+            let first = from + quoted[from..].find('"')?;
+            let marks = quoted[first..].bytes().take_while(|byte| *byte == b'"').count();
+            let behind = &quoted[first + marks..];
+            if marks % 2 == 1 {
+                let is_closed = self.ends(behind);
+                return is_closed.then(|| (quoted[..first + marks - 1].trim(), self.after(behind)));
+            }
+            from = first + marks;
+        }
+    }
+
+    /// Whether a cell ends where this follows.
+    fn ends(self, rest: &str) -> bool {
         match self {
-            Self::Sign(sign) => rest.strip_prefix(sign),
-            Self::Blanks => Some(unskipped).filter(|rest| !rest.trim().is_empty()),
+            Self::Sign(sign) => {
+                let rest = rest.trim_start_matches(' ');
+                rest.is_empty() || rest.starts_with(sign)
+            }
+            Self::Blanks => rest.is_empty() || rest.starts_with([' ', '\t']),
+        }
+    }
+
+    /// What stands behind the delimiter, if there is one.
+    fn after(self, rest: &str) -> Option<&str> {
+        match self {
+            Self::Sign(sign) => rest.trim_start_matches(' ').strip_prefix(sign),
+            Self::Blanks => Some(rest).filter(|rest| !rest.trim().is_empty()),
         }
     }
 }
@@ -112,5 +143,16 @@ mod tests {
         assert_eq!(cells(Delimiter::Sign('\t'), "\t2\t3"), ["", "2", "3"]);
         assert_eq!(cells(Delimiter::Blanks, "  1  2 \t3 "), ["1", "2", "3"]);
         assert_eq!(cells(Delimiter::Blanks, "\"load cell\" 2"), ["load cell", "2"]);
+        assert_eq!(cells(Delimiter::Sign(','), "\"\",\"a\""), ["", "a"]);
+    }
+
+    #[test]
+    fn a_quotation_mark_before_no_delimiter_belongs_to_the_cell() {
+        let semicolons = Delimiter::Sign(';');
+        assert_eq!(cells(semicolons, "t;\"A1\".pos;\"A1\""), ["t", "\"A1\".pos", "A1"]);
+        assert_eq!(cells(semicolons, "\"A1\".pos;\"A2\".pos;3"), ["\"A1\".pos", "\"A2\".pos", "3"]);
+        assert_eq!(cells(semicolons, "\"\"\"A1\"\".pos; rest\";2"), ["\"\"A1\"\".pos; rest", "2"]);
+        assert_eq!(cells(Delimiter::Blanks, "\"A\"1 2"), ["\"A\"1", "2"]);
+        assert_eq!(cells(semicolons, "\"never closed;2"), ["\"never closed", "2"]);
     }
 }
