@@ -2,6 +2,7 @@
 
 mod closest;
 pub mod door;
+mod encodings;
 mod file_error;
 mod log;
 mod mat;

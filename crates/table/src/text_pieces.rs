@@ -1,11 +1,15 @@
 //! A text file read piece by piece and decoded at once, so that it is never whole in memory.
 
 use super::door::open;
+use super::encodings;
 use super::file_error::FileError;
 use super::stream::{self, is_stream};
 use encoding_rs::{Decoder, Encoding, UTF_8, WINDOWS_1252};
 use std::io::{Cursor, Read};
 use std::path::Path;
+
+/// What users call the encoding of Western Europe.
+const WINDOWS_1252_NAME: &str = "Windows-1252";
 
 /// Bytes that are read at once.
 const PIECE: usize = 1 << 16;
@@ -13,7 +17,10 @@ const PIECE: usize = 1 << 16;
 /// Most bytes of a text that are held at once: no line is as long, and no text whose kind is asked for.
 const LONGEST: usize = 256 << 20;
 
-/// A text being read: UTF-8, UTF-16 with a byte order mark, else Windows-1252.
+/// Bytes of a text that is no UTF-8 by which its encoding is judged.
+const JUDGED: u64 = 1 << 20;
+
+/// A text being read: UTF-8, UTF-16, else an [older encoding](encodings::of), most often Windows-1252.
 pub(crate) struct TextPieces<'a> {
     /// The file, as messages call it.
     path: String,
@@ -32,7 +39,7 @@ pub(crate) struct TextPieces<'a> {
 #[derive(Debug)]
 pub(crate) enum PieceError {
     File(FileError),
-    /// The guess was wrong: the text is in [Windows-1252](TextPieces::in_windows_1252).
+    /// The guess was wrong: the text is in an [older encoding](TextPieces::in_older_encoding).
     NotUtf8,
 }
 
@@ -60,7 +67,7 @@ impl<'a> TextPieces<'a> {
         let mut bytes = Vec::with_capacity(PIECE);
         let read = source.by_ref().take(PIECE as u64).read_to_end(&mut bytes);
         read.map_err(|source| FileError::Unreadable { path: path.clone(), source })?;
-        let marked = Encoding::for_bom(&bytes);
+        let marked = Encoding::for_bom(&bytes).or_else(|| Some((encodings::unmarked(&bytes)?, 0)));
         let (encoding, mark) = marked.unwrap_or((UTF_8, 0));
         bytes.drain(..mark);
         Ok(Self {
@@ -74,10 +81,22 @@ impl<'a> TextPieces<'a> {
         })
     }
 
-    /// The same from its beginning, each byte a letter of Windows-1252 (its printable part is Latin-1): this cannot fail.
-    pub(crate) fn in_windows_1252(self) -> Self {
-        let decoder = WINDOWS_1252.new_decoder_without_bom_handling();
-        Self { decoder, encoding: Some("Windows-1252"), is_guess: false, ..self }
+    /// The same from its beginning in the encoding that its bytes suggest: this cannot fail.
+    ///
+    /// # Errors
+    /// [`FileError`] if the file cannot be read.
+    pub(crate) fn in_older_encoding(mut self) -> Result<Self, FileError> {
+        let read = self.source.by_ref().take(JUDGED).read_to_end(&mut self.bytes);
+        read.map_err(|source| FileError::Unreadable { path: self.path.clone(), source })?;
+        let encoding = encodings::of(&self.bytes);
+        let name = if encoding == WINDOWS_1252 { WINDOWS_1252_NAME } else { encoding.name() };
+        let decoder = encoding.new_decoder_without_bom_handling();
+        Ok(Self { decoder, encoding: Some(name), is_guess: false, ..self })
+    }
+
+    /// Whether it is read as Windows-1252, in which any bytes are letters.
+    pub(crate) fn is_in_windows_1252(&self) -> bool {
+        self.encoding == Some(WINDOWS_1252_NAME)
     }
 
     /// The encoding, where it is not UTF-8.
@@ -131,7 +150,7 @@ pub fn read_decoded(path: &Path) -> Result<String, FileError> {
         Ok(text)
     };
     match whole(TextPieces::open(path)?) {
-        Err(PieceError::NotUtf8) => match whole(TextPieces::open(path)?.in_windows_1252()) {
+        Err(PieceError::NotUtf8) => match whole(TextPieces::open(path)?.in_older_encoding()?) {
             Ok(text) => Ok(text),
             Err(PieceError::File(error)) => Err(error),
             Err(PieceError::NotUtf8) => Ok(String::new()),
@@ -154,7 +173,7 @@ mod tests {
             }
             Ok::<_, PieceError>((text, pieces.encoding()))
         };
-        read(open()).or_else(|_| read(open().in_windows_1252())).unwrap()
+        read(open()).or_else(|_| read(open().in_older_encoding().unwrap())).unwrap()
     }
 
     #[test]

@@ -32,7 +32,7 @@ pub use table_error::TableError;
 
 use crate::door::{LARGEST, read_within};
 use crate::text_pieces::{PieceError, TextPieces};
-use crate::{log, mat, parquet_file};
+use crate::{encodings, log, mat, parquet_file};
 use body::Rows;
 use dialect::Dialect;
 use head::Head;
@@ -47,7 +47,7 @@ enum Unread {
 }
 
 impl Unread {
-    /// Read as Windows-1252 every text is one.
+    /// In an older encoding every text is one.
     fn reported(self) -> TableError {
         match self {
             Self::Reported(error) => error,
@@ -89,7 +89,9 @@ impl Table {
         }
         match Self::of_pieces(path, pieces, least) {
             Err(Unread::NotUtf8) => {
-                let again = TextPieces::open(path).map_err(TableError::File)?.in_windows_1252();
+                let again = TextPieces::open(path)
+                    .and_then(TextPieces::in_older_encoding)
+                    .map_err(TableError::File)?;
                 Self::of_pieces(path, again, least).map_err(Unread::reported)
             }
             table => table.map_err(Unread::reported),
@@ -169,7 +171,7 @@ impl Table {
             increment: head.increment,
             ..Self::default()
         };
-        table.notes.splice(..0, pieces.encoding().map(|encoding| format!("text in {encoding}")));
+        table.notes.splice(..0, encoding(&pieces, &table.columns));
         let without_blank = |table: Self| {
             let problem = DataProblem::HeaderWidth { found: dialect.width - 1, expected: dialect.width };
             table.without_blank_end().ok_or_else(|| fail(Some(Place::Line(head.line)), problem))
@@ -208,6 +210,21 @@ impl Table {
         self.columns.retain(|column| !is_blank(column));
         Some(self)
     }
+}
+
+/// In which encoding a text was read, where it is not UTF-8, and a name that makes one doubt it.
+fn encoding(pieces: &TextPieces<'_>, columns: &[Column]) -> Option<String> {
+    let encoding = pieces.encoding()?;
+    let unlikely = columns.iter().find(|column| encodings::is_unlikely(&column.name));
+    let doubted = unlikely.filter(|_| pieces.is_in_windows_1252());
+    Some(match doubted {
+        Some(Column { name, .. }) => {
+            format!(
+                "text in {encoding}, though `{name}` is no likely name: save the file as UTF-8 if it is another"
+            )
+        }
+        None => format!("text in {encoding}"),
+    })
 }
 
 /// As much of a text as shows its dialect.
