@@ -115,7 +115,7 @@ pub(super) fn probe(plan: &Plan) -> Vec<Located> {
         RigProblem::Data(error) => matches!(
             error.problem,
             DataProblem::Empty
-                | DataProblem::NoTable
+                | DataProblem::NoTable { .. }
                 | DataProblem::HeaderWidth { .. }
                 | DataProblem::CommasTwice { .. }
                 | DataProblem::Ragged { .. }
@@ -125,6 +125,7 @@ pub(super) fn probe(plan: &Plan) -> Vec<Located> {
                 | DataProblem::LookAlike { .. }
                 | DataProblem::NotANumber { .. }
                 | DataProblem::OtherDecimal { .. }
+                | DataProblem::OtherUnit { .. }
                 | DataProblem::NotFinite { .. }
                 | DataProblem::More { .. }
         ),

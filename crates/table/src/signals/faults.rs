@@ -23,7 +23,11 @@ pub(super) fn of(column: &Column, no_times: Option<String>) -> Vec<(usize, DataP
 
 /// What is wrong with a cell that holds no value, by its text.
 fn fault(column: &Column, cell: &str) -> DataProblem {
+    let has_other_unit = column.has_other_unit(cell);
     let (column, cell) = (column.label(), cell.to_owned());
+    if has_other_unit {
+        return DataProblem::OtherUnit { column, cell };
+    }
     let is_finite = |text: &str| text.parse::<f64>().is_ok_and(f64::is_finite);
     match cell.parse::<f64>() {
         // A point is read wherever it is the file's own sign.

@@ -8,6 +8,7 @@ use super::error::{DataError, DataProblem, Place};
 use super::head::Head;
 use super::lines::is_idle;
 use super::measurements::Table;
+use super::unit;
 
 /// Faults kept of a column or of the rows; of others only the count is reported.
 pub(super) const KEPT: usize = 3;
@@ -57,6 +58,8 @@ pub(super) struct Rows<'t> {
     first_row: u64,
     /// The lines of the header, which may come again.
     header: Vec<String>,
+    /// What stands before the values of a row, where each has its name.
+    labels: Vec<String>,
     readers: Vec<Reader>,
     /// Lines with more cells than columns: the first few and the last, each with its cells.
     ragged: Vec<(u64, usize)>,
@@ -72,9 +75,9 @@ impl<'t> Rows<'t> {
     /// The rows below a header.
     pub(super) fn of(table: &'t mut Table, dialect: Dialect, head: &Head) -> Self {
         let readers = table.columns.iter().map(|_| Reader::default()).collect();
-        let (first_row, header) = (head.first_row, head.lines.clone());
+        let (first_row, header, labels) = (head.first_row, head.lines.clone(), head.labels.clone());
         let (ragged, short, repeated) = (Vec::new(), Short::default(), Vec::new());
-        Self { table, dialect, first_row, header, readers, ragged, short, repeated, last: 0 }
+        Self { table, dialect, first_row, header, labels, readers, ragged, short, repeated, last: 0 }
     }
 
     /// Takes the next line of the text, whatever it holds.
@@ -87,7 +90,14 @@ impl<'t> Rows<'t> {
             return;
         }
         let mut cells = Vec::with_capacity(self.dialect.width);
-        self.dialect.delimiter.split(text, &mut cells);
+        let Dialect { delimiter, form, .. } = self.dialect;
+        if form.is_plain() {
+            delimiter.split(text, &mut cells);
+        } else if form.is_named() {
+            self.split_by_name(text, &mut cells);
+        } else {
+            form.split(text, delimiter, &mut cells);
+        }
         self.last = line;
         while cells.len() > self.dialect.width && cells.last() == Some(&"") {
             cells.pop();
@@ -111,6 +121,28 @@ impl<'t> Rows<'t> {
             reader.push(column, row, text, self.dialect.decimal);
         }
         self.table.places.push(Place::Line(line));
+    }
+
+    /// The values of a line in the order of the columns whose names stand before them; one of another name is to spare.
+    fn split_by_name<'l>(&self, text: &'l str, cells: &mut Vec<&'l str>) {
+        cells.resize(self.dialect.width, "");
+        let mut found = 0;
+        for (k, (name, value)) in
+            self.dialect.form.pairs(text, self.dialect.delimiter).into_iter().enumerate()
+        {
+            let is_own = |column: &usize| self.labels.get(*column).is_some_and(|label| label == name);
+            let usual = Some(k).filter(is_own);
+            match usual.or_else(|| (0..self.dialect.width).find(is_own)) {
+                Some(column) => {
+                    cells[column] = value;
+                    found += 1;
+                }
+                None => cells.push(value),
+            }
+        }
+        if found == 0 {
+            cells.truncate(1);
+        }
     }
 
     /// The header again: of several lines the first counts.
@@ -197,6 +229,8 @@ pub(super) struct Reader {
     is_decided: bool,
     /// Whether numbers have more digits than a value keeps.
     is_long: bool,
+    /// Whether a number stood without a unit, other than 0.
+    is_plain: bool,
     /// How times are written.
     format: Option<Format>,
     /// Whether stamps are times of day.
@@ -229,7 +263,12 @@ impl Reader {
         let value = match (column.kind, cell) {
             (Kind::Stamp, Cell::Stamp(now)) if !self.is_clock => Some(self.since_first(now)),
             (Kind::Stamp, Cell::Clock(now)) if self.is_clock => Some(self.continued(row, now)),
-            (Kind::Number | Kind::Text, Cell::Number(value)) if value.is_finite() => Some(value),
+            (Kind::Number | Kind::Text, Cell::Number(value)) if value.is_finite() => {
+                self.is_plain |= value != 0.0;
+                // Zero is zero in all units.
+                (!column.has_units || value == 0.0).then_some(value)
+            }
+            (Kind::Number, Cell::Quantity(value)) => self.in_unit(column, (text, decimal), value),
             (_, Cell::Missing) => Some(f64::NAN),
             _ => None,
         };
@@ -244,6 +283,18 @@ impl Reader {
         if value.is_none() {
             column.add_fault(Fault { row, cell: text.to_owned() });
         }
+    }
+
+    /// A number with its unit: the column takes the first, and no other is the same quantity.
+    #[inline(never)]
+    fn in_unit(&mut self, column: &mut Column, (text, decimal): (&str, Decimal), value: f64) -> Option<f64> {
+        let (_, unit) = cell::quantity(text, decimal)?;
+        if self.is_plain {
+            return None;
+        }
+        column.has_units = true;
+        let own = column.unit.get_or_insert_with(|| unit::bare(unit).unwrap_or_else(|| unit.to_owned()));
+        unit::is_same(own, unit).then_some(value)
     }
 
     /// What the first cell that says something makes of a column. A number with the other decimal sign is meant as one.

@@ -1,12 +1,15 @@
 //! What a cell says: a number, a time stamp, nothing, or text.
 
 use super::dates::{self, Format, Stamp};
+use super::unit_words::is_known;
 
 /// What a cell says.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Cell {
     /// A number, perhaps infinite.
     Number(f64),
+    /// A number with its [unit](quantity) behind it.
+    Quantity(f64),
     /// Nanoseconds since some instant.
     Stamp(i128),
     /// Nanoseconds since midnight.
@@ -45,20 +48,39 @@ pub(super) fn read_in(cell: &str, decimal: Decimal, format: &mut Option<Format>)
     match number(cell, decimal) {
         Some(value) if value.is_nan() => Cell::Missing,
         Some(value) => Cell::Number(value),
-        None if cell.is_empty() || MISSING.iter().any(|word| cell.eq_ignore_ascii_case(word)) => {
-            Cell::Missing
-        }
-        None => match dates::read(cell, *format) {
-            Some((stamp, found)) => {
-                *format = Some(found);
-                match stamp {
-                    Stamp::Instant(nanoseconds) => Cell::Stamp(nanoseconds),
-                    Stamp::Clock(nanoseconds) => Cell::Clock(nanoseconds),
-                }
-            }
-            None => Cell::Text,
-        },
+        None => otherwise(cell, decimal, format),
     }
+}
+
+/// What a cell says that is no plain number.
+#[inline(never)]
+fn otherwise(cell: &str, decimal: Decimal, format: &mut Option<Format>) -> Cell {
+    if cell.is_empty() || MISSING.iter().any(|word| cell.eq_ignore_ascii_case(word)) {
+        return Cell::Missing;
+    }
+    match dates::read(cell, *format) {
+        Some((stamp, found)) => {
+            *format = Some(found);
+            match stamp {
+                Stamp::Instant(nanoseconds) => Cell::Stamp(nanoseconds),
+                Stamp::Clock(nanoseconds) => Cell::Clock(nanoseconds),
+            }
+        }
+        None => quantity(cell, decimal).map_or(Cell::Text, |(value, _)| Cell::Quantity(value)),
+    }
+}
+
+/// A number and the unit behind it, as in `31.0 °C` and `12.3%`.
+pub(super) fn quantity(cell: &str, decimal: Decimal) -> Option<(f64, &str)> {
+    let is_part = |sign: char| sign.is_ascii_digit() || "+-.,eE\u{2212}".contains(sign);
+    if !cell.starts_with(|first: char| first.is_ascii_digit() || "+-.\u{2212}".contains(first)) {
+        return None;
+    }
+    let end = cell.find(|sign| !is_part(sign))?;
+    let unit = cell[end..].trim();
+    let bare = unit.strip_prefix(['[', '(']).map_or(unit, |open| open.trim_end_matches([']', ')']));
+    let value = number(&cell[..end], decimal).filter(|value| value.is_finite())?;
+    is_known(bare).then_some((value, bare))
 }
 
 /// The library's reader, fed a point where commas are decimal.
@@ -96,6 +118,18 @@ mod tests {
         assert_eq!(read("\u{2212}2", Decimal::Point), Cell::Number(-2.0));
         for missing in ["", "NaN", "n/a", "NULL", "-"] {
             assert_eq!(read(missing, Decimal::Point), Cell::Missing, "{missing}");
+        }
+        for (cell, decimal, value) in [
+            ("12.3%", Decimal::Point, 12.3),
+            ("31,0 °C", Decimal::Comma, 31.0),
+            ("0.005 sec", Decimal::Point, 0.005),
+            ("-1e-3 [kN]", Decimal::Point, -1e-3),
+            ("4 km/h", Decimal::Point, 4.0),
+        ] {
+            assert_eq!(read(cell, decimal), Cell::Quantity(value), "{cell}");
+        }
+        for text in ["1,5 %", "3 bolts", "0x1A", "12 %s", "% 12", "5 5 mm"] {
+            assert_eq!(read(text, Decimal::Point), Cell::Text, "{text}");
         }
         assert_eq!(read("1e999", Decimal::Point), Cell::Number(f64::INFINITY));
         assert_eq!(read("OK", Decimal::Point), Cell::Text);

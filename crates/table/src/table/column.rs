@@ -1,5 +1,7 @@
 //! A column of a table.
 
+use super::cell::{self, Cell, Decimal};
+
 /// One column.
 #[derive(Debug, Clone)]
 pub struct Column {
@@ -7,6 +9,8 @@ pub struct Column {
     pub name: String,
     /// Its unit; empty for a pure number.
     pub unit: Option<String>,
+    /// Whether its numbers have their unit behind them in the file.
+    pub has_units: bool,
     /// Form of `model`.
     pub kind: Kind,
     /// One a row; NaN where nothing was measured or the cell is a fault. Stamps are in seconds since the first.
@@ -72,6 +76,15 @@ impl Column {
         self.kind == Kind::Number && is_meant()
     }
 
+    /// Whether a cell that gave no value is a number in another unit than the others, or in none.
+    pub(crate) fn has_other_unit(&self, cell: &str) -> bool {
+        [Decimal::Point, Decimal::Comma].into_iter().any(|decimal| match cell::read(cell, decimal) {
+            Cell::Number(value) => self.has_units && value.is_finite(),
+            Cell::Quantity(_) => true,
+            _ => false,
+        })
+    }
+
     /// A cell as it stands in the file, a number up to zeros that say nothing.
     pub fn written(&self, row: usize) -> String {
         self.stamps.get(row).cloned().unwrap_or_else(|| self.values[row].to_string())
@@ -82,6 +95,7 @@ pub(crate) fn empty_column(name: String, unit: Option<String>) -> Column {
     Column {
         name,
         unit,
+        has_units: false,
         kind: Kind::Number,
         values: Vec::new(),
         stamps: Vec::new(),

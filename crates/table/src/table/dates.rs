@@ -49,7 +49,7 @@ const CLOCKS: [&str; 2] = ["%H:%M:%S%.f", "%I:%M:%S%.f %p"];
 
 /// Reads a cell in the format given, else in any; with the format that it is in.
 pub(super) fn read(cell: &str, usual: Option<Format>) -> Option<(Stamp, Format)> {
-    if !cell.contains(':') || !cell.bytes().any(|byte| byte.is_ascii_digit()) {
+    if !has_clock(cell) {
         return None;
     }
     let in_usual = usual.and_then(|format| Some((in_format(cell, format)?, format)));
@@ -58,6 +58,17 @@ pub(super) fn read(cell: &str, usual: Option<Format>) -> Option<(Stamp, Format)>
         all.filter_map(|format| Some((in_format(cell, format)?, format))).next()
     };
     in_usual.or_else(in_any)
+}
+
+/// Whether a cell can be a time at all: digits on both sides of its first colon, and no other signs than dates have.
+fn has_clock(cell: &str) -> bool {
+    let bytes = cell.as_bytes();
+    let is_digit = |at: usize| bytes.get(at).is_some_and(u8::is_ascii_digit);
+    let is_sign =
+        |byte: &u8| byte.is_ascii_alphanumeric() || b" :.,-/+[]_".contains(byte) || !byte.is_ascii();
+    let clock = bytes.iter().position(|byte| *byte == b':');
+    clock.is_some_and(|colon| colon > 0 && is_digit(colon - 1) && is_digit(colon + 1))
+        && bytes.iter().all(is_sign)
 }
 
 fn in_format(cell: &str, Format(number): Format) -> Option<Stamp> {

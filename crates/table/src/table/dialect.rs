@@ -1,6 +1,7 @@
 //! How a text separates its cells and writes its numbers.
 
 use super::cell::{self, Cell, Decimal};
+use super::form::Form;
 use super::lines::{Delimiter, is_idle, numbered};
 use std::collections::HashMap;
 
@@ -11,8 +12,12 @@ pub(super) struct Dialect {
     pub(super) decimal: Decimal,
     /// Cells of a row.
     pub(super) width: usize,
+    /// What a row holds beside its values.
+    pub(super) form: Form,
     /// Cells of a typical row that are text.
     texts: usize,
+    /// Whether numbers have their units behind them.
+    has_quantities: bool,
 }
 
 /// In the order of preference where several read the text equally well. Blanks come last, since they surround other signs too; commas
@@ -41,11 +46,13 @@ impl Dialect {
             numbered(text).map(|(_, line)| line).filter(|line| !is_idle(line)).take(LOOKED_AT).collect();
         let counted = &lines[lines.len().saturating_sub(COUNTED)..];
         let mut best: Option<(f64, Self)> = None;
-        for (delimiter, decimal) in CANDIDATES {
-            if let Some((score, dialect)) = judged(counted, delimiter, decimal)
-                && best.as_ref().is_none_or(|(most, _)| score > *most)
-            {
-                best = Some((score, dialect));
+        for form in Form::in_lines(counted) {
+            for (delimiter, decimal) in CANDIDATES {
+                if let Some((score, dialect)) = judged(counted, (delimiter, decimal), form)
+                    && best.as_ref().is_none_or(|(most, _)| score > *most)
+                {
+                    best = Some((score, dialect));
+                }
             }
         }
         best.map(|(_, dialect)| dialect)
@@ -62,20 +69,44 @@ impl Dialect {
         let lines: Vec<&str> = numbered(text).map(|(_, line)| line).filter(|line| !is_idle(line)).collect();
         let is_number = |line: &&&str| matches!(cell::read(line.trim(), Decimal::Point), Cell::Number(_));
         let numbers = lines.iter().filter(is_number).count();
-        let (delimiter, decimal) = (Delimiter::Sign(','), Decimal::Point);
-        (2 * numbers > lines.len()).then_some(Self { delimiter, decimal, width: 1, texts: 0 })
+        let (delimiter, decimal, form) = (Delimiter::Sign(','), Decimal::Point, Form::default());
+        let single = Self { delimiter, decimal, width: 1, form, texts: 0, has_quantities: false };
+        (2 * numbers > lines.len()).then_some(single)
+    }
+
+    /// Splits a line into its cells; `cells` is emptied first.
+    pub(super) fn split<'t>(&self, line: &'t str, cells: &mut Vec<&'t str>) {
+        self.form.split(line, self.delimiter, cells);
+    }
+
+    /// The number in a cell.
+    pub(super) fn number(&self, cell: &str) -> Option<f64> {
+        match cell::read(cell, self.decimal) {
+            Cell::Number(value) | Cell::Quantity(value) => Some(value),
+            _ => None,
+        }
     }
 
     /// Whether cells could be a row of the table, rather than its header or what stands above.
     pub(super) fn is_row(&self, cells: &[&str]) -> bool {
-        let count = Count::of(cells, self.decimal);
+        let count = self.count(cells);
         cells.len() == self.width && count.numbers >= 1 && count.texts <= self.texts
     }
 
     /// Whether most cells are words, as in a header.
     pub(super) fn is_wordy(&self, cells: &[&str]) -> bool {
-        let count = Count::of(cells, self.decimal);
+        let count = self.count(cells);
         count.texts > count.numbers
+    }
+
+    /// Where no row holds units, a number with a unit stands above the table.
+    fn count(&self, cells: &[&str]) -> Count {
+        let Count { mut numbers, mut texts, quantities } = Count::of(cells, self.decimal);
+        if !self.has_quantities {
+            numbers -= quantities;
+            texts += quantities;
+        }
+        Count { numbers, texts, quantities }
     }
 }
 
@@ -83,25 +114,29 @@ impl Dialect {
 struct Count {
     numbers: usize,
     texts: usize,
+    /// Numbers with units.
+    quantities: usize,
 }
 
 impl Count {
     fn of(cells: &[&str], decimal: Decimal) -> Self {
-        let read = cells.iter().map(|text| cell::read(text, decimal));
-        read.fold(Self { numbers: 0, texts: 0 }, |Self { numbers, texts }, cell| match cell {
-            Cell::Number(_) | Cell::Stamp(_) | Cell::Clock(_) => Self { numbers: numbers + 1, texts },
-            Cell::Text => Self { numbers, texts: texts + 1 },
-            Cell::Missing => Self { numbers, texts },
-        })
+        let mut count = Self { numbers: 0, texts: 0, quantities: 0 };
+        for text in cells {
+            let cell = cell::read(text, decimal);
+            count.numbers += usize::from(!matches!(cell, Cell::Text | Cell::Missing));
+            count.texts += usize::from(cell == Cell::Text);
+            count.quantities += usize::from(matches!(cell, Cell::Quantity(_)));
+        }
+        count
     }
 }
 
 /// The mean share of numbers among the cells that say something, over lines of the commonest width.
-fn judged(lines: &[&str], delimiter: Delimiter, decimal: Decimal) -> Option<(f64, Dialect)> {
+fn judged(lines: &[&str], (delimiter, decimal): (Delimiter, Decimal), form: Form) -> Option<(f64, Dialect)> {
     let mut cells = Vec::new();
     let mut counts: Vec<(usize, Count)> = Vec::with_capacity(lines.len());
     for line in lines {
-        delimiter.split(line, &mut cells);
+        form.split(line, delimiter, &mut cells);
         let count = Count::of(&cells, decimal);
         if cells.len() >= 2 && count.numbers >= 1 {
             counts.push((cells.len(), count));
@@ -119,7 +154,8 @@ fn judged(lines: &[&str], delimiter: Delimiter, decimal: Decimal) -> Option<(f64
     texts.sort_unstable();
     let texts = texts[texts.len() / 2];
     let has_two = rows.iter().any(|count| count.numbers >= 2);
-    has_two.then_some((score, Dialect { delimiter, decimal, width, texts }))
+    let has_quantities = 2 * rows.iter().filter(|count| count.quantities > 0).count() > rows.len();
+    has_two.then_some((score, Dialect { delimiter, decimal, width, form, texts, has_quantities }))
 }
 
 #[cfg(test)]

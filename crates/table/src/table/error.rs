@@ -31,8 +31,10 @@ pub enum Place {
 pub enum DataProblem {
     #[error("the file is empty")]
     Empty,
-    #[error("no table was found: there are no rows with numbers in at least two columns")]
-    NoTable,
+    #[error(
+        "no table was found: there are no rows with numbers in at least two columns; line {line} is `{shown}`"
+    )]
+    NoTable { line: u64, shown: String },
     #[error("the file cannot be read as MATLAB data: {reason}")]
     NotMatlab { reason: String },
     #[error("the file cannot be read as a log in MCAP: {reason}")]
@@ -65,6 +67,8 @@ pub enum DataProblem {
     Interrupted { remedy: String },
     #[error("column `{column}`: `{cell}` is not a number")]
     NotANumber { column: String, cell: String },
+    #[error("column `{column}`: the unit of `{cell}` is not that of the rows above")]
+    OtherUnit { column: String, cell: String },
     #[error("column `{column}`: `{cell}` is not an ISO 8601 time as in the rows above")]
     NotAStamp { column: String, cell: String },
     #[error("column `{column}`: `{cell}` is not finite")]
@@ -136,7 +140,7 @@ impl DataProblem {
     /// What the user can do about it.
     pub fn remedy(&self) -> String {
         match self {
-            Self::Empty | Self::NoTable => {
+            Self::Empty | Self::NoTable { .. } => {
                 "a file of measurements has one row a sample, with the input and the output in two columns; commas, semicolons, tabs, bars or blanks between them".to_owned()
             }
             Self::NotMatlab { .. } => "save numeric vectors of one length, or a CSV file by `writetable`; MATLAB files are read by programs built with `--features matlab`".to_owned(),
@@ -157,6 +161,9 @@ impl DataProblem {
                 format!("write `{meant}` if that is meant, else give the column another name")
             }
             Self::OtherDecimal { .. } => "write all numbers of the file with the same decimal sign".to_owned(),
+            Self::OtherUnit { .. } => {
+                "write all numbers of a column in one unit, best in its header alone".to_owned()
+            }
             Self::CommasTwice { .. } => {
                 "save the file with semicolons or tabs between columns, or with decimal points".to_owned()
             }

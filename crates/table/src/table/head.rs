@@ -2,14 +2,15 @@
 
 use super::dialect::Dialect;
 use super::error::{DataProblem, Place};
-use super::lines::{Delimiter, is_comment, is_idle, numbered};
-use super::{preamble, unit};
+use super::keyed::{self, Named};
+use super::lines::{self, Delimiter, is_comment, is_idle, numbered};
+use super::{preamble, silent, unit};
 
 /// What stands above the rows.
 #[derive(Debug, Default)]
 pub(super) struct Head {
     /// Name and unit of each column, empty where the file has no header.
-    pub(super) names: Vec<(String, Option<String>)>,
+    pub(super) names: Vec<Named>,
     /// Line of the first row.
     pub(super) first_row: u64,
     /// Lines above the header that say nothing of the columns.
@@ -19,8 +20,12 @@ pub(super) struct Head {
     pub(super) line: u64,
     /// The lines of names and units, as they stand in the file.
     pub(super) lines: Vec<String>,
+    /// What stands before the values of a row, where each has its name.
+    pub(super) labels: Vec<String>,
     /// Seconds between rows, where a line above them says so.
     pub(super) increment: Option<f64>,
+    /// From the first row to the next, in the first column.
+    step: Option<f64>,
 }
 
 /// The lines above the first row, nearest last; the ones in between that are blank are left out.
@@ -36,38 +41,83 @@ struct Candidate<'t> {
     cells: Vec<&'t str>,
 }
 
+impl Candidate<'_> {
+    /// Where cells have lines of their own, the number is that of the last.
+    fn first_line(&self) -> u64 {
+        self.line - self.text.matches('\n').count() as u64
+    }
+}
+
 impl Head {
     /// Where the header has more cells than the rows, the dialect takes its width: cells at the end of rows may be left out.
     ///
     /// # Errors
     /// A header that has fewer cells than the rows.
     pub(super) fn find(text: &str, dialect: &mut Dialect) -> Result<Self, (Place, DataProblem)> {
+        if dialect.form.is_named() {
+            return Ok(Self::beside_values(text, dialect));
+        }
         let Above { lines: all, first_row } = above(text, dialect);
         let increment = preamble::increment(&all);
+        let step = step(text, first_row, dialect);
+        let head = Self { first_row, increment, step, ..Self::default() };
+        let mut head = Self::above_rows((text, &all), dialect, head)?;
+        keyed::add_units(&mut head.names, &all, dialect);
+        Ok(head)
+    }
+
+    /// The names that stand before the values of the first row.
+    fn beside_values(text: &str, dialect: &Dialect) -> Self {
+        let mut cells = Vec::new();
+        let first = numbered(text).find(|(_, line)| {
+            dialect.split(line, &mut cells);
+            !is_idle(line) && dialect.is_row(&cells)
+        });
+        let (line, first) = first.unwrap_or((u64::MAX, ""));
+        let pairs = dialect.form.pairs(first, dialect.delimiter);
+        let labels: Vec<String> = pairs.into_iter().map(|(name, _)| name.to_owned()).collect();
+        let names = labels.iter().map(|label| unit::split(label)).collect();
+        Self { names, labels, first_row: line, line, skipped: line - 1, ..Self::default() }
+    }
+
+    fn above_rows(
+        (text, all): (&str, &[(u64, &str)]),
+        dialect: &mut Dialect,
+        head: Self,
+    ) -> Result<Self, (Place, DataProblem)> {
         // A comment names the columns only where no other line does.
         let plain: Vec<_> = all.iter().copied().filter(|(_, line)| !is_comment(line)).collect();
-        let nearest = plain.last().map(|(_, line)| *line);
+        let nearest = plain.iter().rev().map(|(_, line)| *line).find(|line| !silent::is(line, dialect));
         let is_named = nearest.is_some_and(|line| header_cells(line, dialect).is_some());
         if let Some(width) = nearest.filter(|_| !is_named).and_then(|line| misfit(line, dialect))
             && width > dialect.width
         {
             dialect.width = width;
-            return Self::named(plain, dialect, Self { first_row, increment, ..Self::default() });
+            return Self::named(&plain, dialect, head);
         }
-        let lines = if is_named { plain } else { all };
-        Self::named(lines, dialect, Self { first_row, increment, ..Self::default() })
+        let is_listed = !is_named || nearest.is_some_and(keyed::is_counted);
+        if is_listed && let Some(names) = keyed::counted(all, dialect.width) {
+            let line = all.last().map_or(0, |(line, _)| *line);
+            return Ok(Self { names, skipped: line, line, ..head });
+        }
+        Self::named(if is_named { &plain } else { all }, dialect, head)
             .map(|head| if head.names.is_empty() { head.numbered(text, dialect) } else { head })
     }
 
-    fn named(lines: Vec<(u64, &str)>, dialect: &Dialect, head: Self) -> Result<Self, (Place, DataProblem)> {
-        let Some((line, nearest)) = lines.last() else { return Ok(head) };
-        if let Some(described) = described(&lines, dialect) {
+    fn named(lines: &[(u64, &str)], dialect: &Dialect, head: Self) -> Result<Self, (Place, DataProblem)> {
+        let Some((line, _)) = lines.last() else { return Ok(head) };
+        if let Some(described) = keyed::described(lines, dialect, head.step) {
             return Ok(Self { names: described, skipped: *line, line: *line, ..head });
         }
-        let candidates = candidates(&lines, dialect);
+        if let Some((line, names)) = keyed::named(lines, dialect) {
+            return Ok(Self { names, has_unit_row: true, skipped: line - 1, line, ..head });
+        }
+        let candidates = candidates(lines, dialect);
         if candidates.is_empty() {
-            return match misfit(nearest, dialect) {
-                Some(found) => {
+            let nearest = lines.iter().rev().find(|(_, line)| !silent::is(line, dialect));
+            let misfit = nearest.and_then(|(line, nearest)| Some((line, misfit(nearest, dialect)?)));
+            return match misfit {
+                Some((line, found)) => {
                     let expected = dialect.width;
                     let is_twice = dialect.delimiter == Delimiter::Sign(',') && expected == 2 * found;
                     let problem = if is_twice {
@@ -83,34 +133,40 @@ impl Head {
         Ok(Self::of_candidates(&candidates, head))
     }
 
-    /// The line with the most distinct names is the header; of several the nearest, unless it holds nothing but units.
+    /// The line right above the units is the header; without units the one with the most distinct names, and of several the nearest.
     fn of_candidates(candidates: &[Candidate<'_>], head: Self) -> Self {
-        let is_units = |candidate: &Candidate<'_>| unit::are_units(&candidate.cells);
+        let units = units(candidates);
         let rank = |(k, candidate): &(usize, &Candidate<'_>)| {
-            (!is_units(candidate), distinct(&candidate.cells), std::cmp::Reverse(*k))
+            let is_above = units.is_some_and(|units| units + 1 == *k);
+            (units != Some(*k), is_above, distinct(&candidate.cells), std::cmp::Reverse(*k))
         };
         let best = candidates.iter().enumerate().max_by_key(rank).map_or(0, |(k, _)| k);
         let names = &candidates[best];
-        let units = candidates.iter().enumerate().find(|(k, candidate)| *k != best && is_units(candidate));
-        let cell_of = |k: usize| units.and_then(|(_, units)| unit::bare(units.cells.get(k)?));
+        let units = units.filter(|k| *k != best).map(|k| &candidates[k]);
+        let cell_of = |k: usize| {
+            let cell = units?.cells.get(k)?;
+            // The first one may name the row.
+            if k == 0 { unit::bare(cell) } else { unit::meant(cell) }
+        };
         let named = names.cells.iter().enumerate().map(|(k, name)| {
-            let (name, own) = unit::split(name);
+            let (name, own) = unit::split(&plain(name));
             (name, cell_of(k).or(own))
         });
         let beside = candidates.iter().filter(|other| other.line != names.line);
         let increment = beside
             .flat_map(|other| names.cells.iter().zip(&other.cells))
             .find_map(|(name, value)| preamble::entry(name, value));
-        let taken = [Some(names), units.map(|(_, units)| units)];
+        let taken = [Some(names), units];
         Self {
             names: named.collect(),
             has_unit_row: units.is_some(),
             line: names.line,
-            skipped: candidates
-                .last()
-                .map_or(0, |top| top.line.min(names.line))
-                .min(units.map_or(names.line, |(_, units)| units.line.min(names.line)))
-                - 1,
+            skipped: [candidates.last(), Some(names), units]
+                .into_iter()
+                .flatten()
+                .map(Candidate::first_line)
+                .min()
+                .map_or(0, |first| first - 1),
             lines: taken.into_iter().flatten().map(|taken| taken.text.trim_end().to_owned()).collect(),
             increment: increment.or(head.increment),
             ..head
@@ -138,23 +194,68 @@ impl Head {
     }
 }
 
-/// The lines right above the rows that can name the columns, nearest first.
+/// The lines above the rows that can name the columns, nearest first; those that say nothing are passed over.
 fn candidates<'t>(lines: &[(u64, &'t str)], dialect: &Dialect) -> Vec<Candidate<'t>> {
     /// Names, units, and what else instruments add.
     const MOST: usize = 4;
     let mut found: Vec<Candidate<'t>> = Vec::new();
-    for (line, text) in lines.iter().rev().take(MOST) {
+    // The line below the next one that could name the columns.
+    let mut next = None;
+    for (line, text) in lines.iter().rev() {
+        let are_units = found.last().is_none_or(|below| unit::are_mostly_units(&below.cells));
+        let is_adjacent = next.is_none_or(|next| next == line + 1 || is_comment(text) || are_units);
+        if found.len() == MOST || !is_adjacent {
+            break;
+        }
+        next = Some(*line);
+        let is_passed = silent::is_row(text, dialect) || are_units && silent::is(text, dialect);
+        if is_passed {
+            continue;
+        }
         let Some(cells) = header_cells(text, dialect) else { break };
-        let is_adjacent = found.last().is_none_or(|below| below.line == line + 1 || is_comment(text));
+        if keyed::are_units(&cells) || silent::is_setting(&cells) {
+            continue;
+        }
         // Preambles have numbers where headers have names; numbers above units are names of channels.
-        let is_wordy =
-            dialect.is_wordy(&cells) || found.last().is_none_or(|below| unit::are_units(&below.cells));
-        if !is_adjacent || !is_wordy {
+        let is_above_units = found.last().is_none_or(|below| are_units || unit::are_units(&below.cells));
+        if !dialect.is_wordy(&cells) && !is_above_units {
             break;
         }
         found.push(Candidate { line: *line, text, cells });
     }
     found
+}
+
+/// Which candidate is the row of units: all of its cells are, or most of them where those of the line above are not.
+fn units(candidates: &[Candidate<'_>]) -> Option<usize> {
+    let cells = |k: usize| &candidates[k].cells[..];
+    let is_below_names =
+        |k: &usize| candidates.get(k + 1).is_some_and(|above| unit::are_units_below(cells(*k), &above.cells));
+    let all = || 0..candidates.len();
+    let is_beside_names =
+        |k: &usize| unit::are_units(cells(*k)) && all().any(|other| !unit::are_units(cells(other)));
+    // Letters above units are names, though they may be units too: `t,V,A` above `s,V,A`.
+    let is_above = |k: &usize| k + 1 < candidates.len() && unit::are_mostly_units(cells(*k));
+    all().find(is_below_names).or_else(|| all().find(is_beside_names)).or_else(|| all().find(is_above))
+}
+
+/// A name as it is meant: a doubled quotation mark is one, the end of a line within a cell a blank, and apostrophes around it are none of it.
+fn plain(name: &str) -> String {
+    let within = name.strip_prefix('\'').and_then(|name| name.strip_suffix('\''));
+    let name = within.filter(|name| !name.contains('\'')).unwrap_or(name);
+    name.replace("\"\"", "\"").split_whitespace().collect::<Vec<_>>().join(" ")
+}
+
+/// From the first row to the next, in the first column.
+fn step(text: &str, first_row: u64, dialect: &Dialect) -> Option<f64> {
+    let rows = numbered(text).filter(|(line, text)| *line >= first_row && !is_idle(text));
+    let firsts = rows.take(2).map(|(_, row)| {
+        let mut cells = Vec::new();
+        dialect.split(row, &mut cells);
+        dialect.number(cells.first()?)
+    });
+    let firsts: Vec<Option<f64>> = firsts.collect();
+    Some((*firsts.get(1)?)? - firsts[0]?)
 }
 
 /// How many names a line holds that stand for nothing else.
@@ -163,38 +264,34 @@ fn distinct(cells: &[&str]) -> usize {
     cells.iter().filter(is_name).collect::<std::collections::HashSet<_>>().len()
 }
 
-/// Names and units in comments that repeat a key before every one: `name: Time  name: Force`.
-fn described(lines: &[(u64, &str)], dialect: &Dialect) -> Option<Vec<(String, Option<String>)>> {
-    let values = |word: &str| {
-        lines.iter().rev().find_map(|(_, line)| {
-            let cells = pairs(line, dialect.width)?;
-            cells
-                .iter()
-                .all(|(key, _)| key.to_lowercase().contains(word))
-                .then(|| cells.into_iter().map(|(_, value)| value).collect::<Vec<_>>())
-        })
+/// The lines of a text; those between two quotation marks, as of a cell with lines of its own, are one with the number of the last.
+fn whole(text: &str) -> impl Iterator<Item = (u64, &str)> {
+    /// Lines of the longest cell, times the cells of a header.
+    const MOST: usize = 200;
+    let end = lines::end(text);
+    let mut rest = Some(text);
+    let mut number = 0;
+    // A mark that begins a cell; another is a sign of inches.
+    let is_open = |line: &str| {
+        let marks = line.bytes().filter(|byte| *byte == b'"').count();
+        let begins = |at: usize| at == 0 || line[..at].ends_with([',', ';', '\t', '|']);
+        marks % 2 == 1 && line.rfind('"').is_some_and(begins)
     };
-    let (names, units) = (values("name")?, values("unit"));
-    let unit = |k: usize| units.as_ref().and_then(|units| unit::bare(units[k]));
-    Some(names.iter().enumerate().map(|(k, name)| ((*name).to_owned(), unit(k))).collect())
-}
-
-/// The keys and values of a comment that has as many as there are columns.
-fn pairs(line: &str, width: usize) -> Option<Vec<(&str, &str)>> {
-    let bare = line.trim_start().trim_start_matches(['#', '%', '/', ' ']);
-    let cells: Vec<&str> = bare.split("  ").map(str::trim).filter(|cell| !cell.is_empty()).collect();
-    let pairs: Vec<(&str, &str)> = match cells.len() == width {
-        true => cells
-            .iter()
-            .filter_map(|cell| cell.split_once(':'))
-            .map(|(key, value)| (key, value.trim()))
-            .collect(),
-        false => {
-            cells.chunks_exact(2).filter_map(|pair| Some((pair[0].strip_suffix(':')?, pair[1]))).collect()
-        }
-    };
-    let are_alike = pairs.iter().all(|(key, _)| *key == pairs[0].0);
-    (pairs.len() == width && width > 1 && are_alike).then_some(pairs)
+    std::iter::from_fn(move || {
+        let text = rest?;
+        let ends = text.match_indices(end).map(|(at, _)| at).chain(std::iter::once(text.len()));
+        let first = ends.clone().next()?;
+        let taken = if is_open(&text[..first]) {
+            let is_whole = |line: &str| line.bytes().filter(|byte| *byte == b'"').count() % 2 == 0;
+            ends.take(MOST).enumerate().find(|(_, at)| is_whole(&text[..*at]))
+        } else {
+            None
+        };
+        let (further, at) = taken.unwrap_or((0, first));
+        number += 1 + further as u64;
+        rest = text.get(at + 1..).filter(|_| at < text.len());
+        Some((number, lines::without_return(&text[..at])))
+    })
 }
 
 /// Goes down to the first row, then up again over lines that are rows with a fault, which the rows' reader will show.
@@ -202,11 +299,11 @@ fn above<'t>(text: &'t str, dialect: &Dialect) -> Above<'t> {
     let mut cells = Vec::new();
     let mut lines: Vec<(u64, &str)> = Vec::new();
     let mut first_row = None;
-    for (number, line) in numbered(text) {
+    for (number, line) in whole(text) {
         if line.trim().is_empty() {
             continue;
         }
-        dialect.delimiter.split(line, &mut cells);
+        dialect.split(line, &mut cells);
         if !is_idle(line) && dialect.is_row(&cells) {
             first_row = Some(number);
             break;
@@ -215,12 +312,12 @@ fn above<'t>(text: &'t str, dialect: &Dialect) -> Above<'t> {
     }
     let mut first_row = first_row.unwrap_or(u64::MAX);
     while let Some((&(number, line), further)) = lines.split_last() {
-        dialect.delimiter.split(line, &mut cells);
+        dialect.split(line, &mut cells);
         // Where most rows leave cells out, a longer one stands below a header of that length.
         let is_headed = || further.iter().any(|(_, text)| misfit(text, dialect) == Some(cells.len()));
         let is_row = cells.len() == dialect.width || cells.len() > dialect.width && is_headed();
         let is_faulty_row = !is_idle(line) && is_row && !dialect.is_wordy(&cells);
-        if !is_faulty_row || unit::are_units(&cells) {
+        if !is_faulty_row || unit::are_units(&cells) || silent::is_setting(&cells) {
             break;
         }
         first_row = number;
@@ -235,13 +332,13 @@ fn header_cells<'t>(line: &'t str, dialect: &Dialect) -> Option<Vec<&'t str>> {
         if is_comment(line) { line.trim_start().trim_start_matches(['#', '%', '/', ' ']) } else { line };
     let others = [',', ';', '\t', '|'].map(Delimiter::Sign);
     for delimiter in std::iter::once(dialect.delimiter).chain(others) {
-        let mut cells = Vec::new();
-        delimiter.split(line, &mut cells);
+        let mut cells = dialect.form.header(line, delimiter);
         while cells.len() > dialect.width && cells.last() == Some(&"") {
             cells.pop();
         }
         // Rows that end in a delimiter have a nameless last cell; that nothing stands in it is seen once they are read.
-        if cells.len() + 1 == dialect.width && delimiter == dialect.delimiter && cells.len() >= 2 {
+        let is_own = delimiter == dialect.delimiter && delimiter != Delimiter::Blanks;
+        if cells.len() + 1 == dialect.width && is_own && cells.len() >= 2 {
             cells.push("");
         }
         if cells.len() == dialect.width {

@@ -34,6 +34,7 @@ impl Table {
             kind: column.kind,
             origin: column.origin,
             words: column.words.clone(),
+            has_units: column.has_units,
             ..empty_column(column.name.clone(), column.unit.clone())
         });
         let empty = empty.collect();

@@ -1,7 +1,7 @@
 //! A file of measurements as named columns of numbers, whatever its dialect.
 //!
 //! Recognised without being reported: what separates cells, decimal commas, the header and a row of units, what stands above the table,
-//! comments (`#`, `%`, `//`), missing values, ISO 8601 time stamps, the encoding. What was recognised is kept in [`Table::notes`], to be reported.
+//! comments (`#`, `%`, `//`), names and units beside values, missing values, ISO 8601 time stamps, the encoding. What was recognised is kept in [`Table::notes`], to be reported.
 
 mod body;
 mod cell;
@@ -9,14 +9,20 @@ mod column;
 mod dates;
 mod dialect;
 mod error;
+mod form;
 mod head;
+mod keyed;
 mod lines;
 mod measurements;
 mod memory;
 mod places;
 mod preamble;
+mod silent;
 mod table_error;
+#[cfg(test)]
+mod tests;
 pub mod unit;
+mod unit_words;
 
 pub use column::Column;
 pub use column::Kind;
@@ -161,7 +167,7 @@ impl Table {
         let first = &text[..whole];
         let single = || if least <= 1 { Dialect::single(first) } else { None };
         let dialect = Dialect::of(first).or_else(single);
-        let mut dialect = dialect.ok_or_else(|| fail(None, DataProblem::NoTable))?;
+        let mut dialect = dialect.ok_or_else(|| fail(None, no_table(first)))?;
         let head = Head::find(first, &mut dialect).map_err(|(place, problem)| fail(Some(place), problem))?;
         let mut table = Self {
             path: path.clone(),
@@ -227,6 +233,23 @@ fn encoding(pieces: &TextPieces<'_>, columns: &[Column]) -> Option<String> {
     })
 }
 
+/// Shows the first line that has a digit, else the first at all.
+fn no_table(text: &str) -> DataProblem {
+    /// Letters that are shown of it.
+    const SHOWN: usize = 60;
+    let lines = || lines::numbered(text).filter(|(_, line)| !line.trim().is_empty());
+    let measured =
+        lines().find(|(_, line)| !lines::is_comment(line) && line.contains(|c: char| c.is_ascii_digit()));
+    let (line, text) = measured.or_else(|| lines().next()).unwrap_or((1, ""));
+    let text = text.trim();
+    let visible = |c: char| if c.is_control() { ' ' } else { c };
+    let mut shown: String = text.chars().take(SHOWN).map(visible).collect();
+    if shown.len() < text.len() {
+        shown.push('…');
+    }
+    DataProblem::NoTable { line, shown }
+}
+
 /// As much of a text as shows its dialect.
 fn beginning(pieces: &mut TextPieces<'_>) -> Result<String, Unread> {
     let mut text = String::new();
@@ -261,6 +284,7 @@ fn notes(head: &Head, dialect: &Dialect) -> Vec<String> {
     if dialect.decimal == cell::Decimal::Comma {
         notes.push("decimal commas".to_owned());
     }
+    notes.extend(dialect.form.described().map(str::to_owned));
     if head.has_unit_row {
         notes.push("a row of units".to_owned());
     }

@@ -3,7 +3,7 @@
 use super::unit;
 
 /// What instruments call the time between samples; letters only, in lower case.
-const TIMES: [&str; 16] = [
+const TIMES: [&str; 17] = [
     "increment",
     "xincrement",
     "xinc",
@@ -19,6 +19,7 @@ const TIMES: [&str; 16] = [
     "timestep",
     "timeincrement",
     "horizontalinterval",
+    "hresolution",
     "abtastzeit",
 ];
 /// What they call the samples a second.

@@ -1,0 +1,89 @@
+//! Lines between a header and its rows that say nothing of the columns.
+
+use super::dialect::Dialect;
+use super::lines::Delimiter;
+
+/// Words for types of data, in lower case and without their sizes.
+const TYPES: [&str; 16] = [
+    "f", "i", "u", "float", "double", "single", "int", "uint", "integer", "real", "lreal", "bool", "boolean",
+    "string", "text", "datetime",
+];
+
+/// Whether a line says nothing of the columns: a mark, a title, or a [row](is_row) that is the same throughout.
+pub(super) fn is(line: &str, dialect: &Dialect) -> bool {
+    is_mark(line, dialect) || is_row(line, dialect)
+}
+
+/// Whether a line is a mark or a title: `[data]`, `***End_of_Header***`, `----`, `trace_values;;;`, `Measured values`.
+pub(super) fn is_mark(line: &str, dialect: &Dialect) -> bool {
+    let text = line.trim().trim_start_matches(['#', '%', ';', ' ']);
+    let is_framed = text.starts_with('[') && text.ends_with(']') && !text[1..].contains('[');
+    let is_drawn = text.starts_with("**") || text.starts_with("--") || text.starts_with("==");
+    let mut cells = Vec::new();
+    dialect.delimiter.split(text, &mut cells);
+    // `,force` names the second of two columns.
+    let is_single = match &cells[..] {
+        [_] => dialect.width > 1,
+        [_, others @ ..] => dialect.width > 2 && others.iter().all(|cell| cell.is_empty()),
+        [] => true,
+    };
+    // Blanks separate the words of any sentence.
+    (is_framed && dialect.delimiter == Delimiter::Blanks) || is_drawn || is_single
+}
+
+/// Words before settings of the channels, one a column; lower case.
+const SETTINGS: [&str; 24] = [
+    "min",
+    "max",
+    "minimum",
+    "maximum",
+    "mean",
+    "average",
+    "range",
+    "bereich",
+    "offset",
+    "scale",
+    "scaling",
+    "gain",
+    "factor",
+    "faktor",
+    "scale factor",
+    "scalefactor",
+    "sensitivity",
+    "zero",
+    "lower",
+    "upper",
+    "full scale",
+    "filter",
+    "sensor",
+    "serial",
+];
+
+/// Whether cells are settings of the channels behind a word for them: `Range,500,10`.
+pub(super) fn is_setting(cells: &[&str]) -> bool {
+    let is_number = |cell: &&str| cell.is_empty() || cell.replace(',', ".").parse::<f64>().is_ok();
+    let [key, values @ ..] = cells else { return false };
+    !values.is_empty() && values.iter().all(is_number) && SETTINGS.contains(&key.to_lowercase().as_str())
+}
+
+/// Whether all cells of a line are the same (`Rohdaten;Rohdaten;Rohdaten`), types of data, or a drawn line.
+pub(super) fn is_row(line: &str, dialect: &Dialect) -> bool {
+    let mut cells = Vec::new();
+    dialect.delimiter.split(line, &mut cells);
+    cells.retain(|cell| !cell.is_empty());
+    let is_word = |cell: &&str| cell.starts_with(char::is_alphabetic);
+    let are_alike = || cells.iter().all(|cell| *cell == cells[0]);
+    let is_drawn = |cell: &&str| cell.len() > 1 && cell.bytes().all(|byte| b"-=:+_*".contains(&byte));
+    if cells.len() > 1 && cells.iter().all(is_drawn) {
+        return true;
+    }
+    // Of two columns of one name nobody knows better.
+    cells.len() > 1 && cells.iter().all(is_word) && (are_alike() || cells.iter().all(|cell| is_type(cell)))
+}
+
+fn is_type(word: &str) -> bool {
+    let word = word.to_lowercase();
+    let bare =
+        word.trim_start_matches(['<', '|', '>']).trim_end_matches(|c: char| c.is_ascii_digit() || c == '_');
+    TYPES.contains(&bare) && (bare.len() > 1 || bare.len() < word.len())
+}
