@@ -1,17 +1,19 @@
 //! Tables of measurements in any dialect, as evenly sampled signals.
 
+mod chosen;
 mod closest;
 pub mod door;
 mod encodings;
 mod file_error;
 mod log;
 mod mat;
+mod mdf;
 mod parquet_file;
 pub mod shell;
 pub mod signals;
 pub mod stream;
 pub mod table;
-#[cfg(all(test, any(feature = "mcap", feature = "parquet")))]
+#[cfg(all(test, any(feature = "mcap", feature = "mdf", feature = "parquet")))]
 mod tests;
 mod text_file;
 mod text_kind;

@@ -3,6 +3,7 @@
 //! Every number of a message is a column, called `/topic.field[2]`; every topic has a clock, of its headers where they hold stamps, else of the
 //! logger. Messages are described by the definitions of ROS 2 in the log itself.
 
+use crate::chosen::Choice;
 use crate::table::{Table, TableError};
 use std::io;
 use std::path::Path;
@@ -30,17 +31,6 @@ pub(crate) fn is_log(path: &Path, bytes: &[u8]) -> bool {
     path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("mcap")) || bytes.starts_with(MAGIC)
 }
 
-/// Which columns of the first messages are input and output.
-pub(crate) type Choice<'a> = &'a dyn Fn(&Table) -> Option<Chosen>;
-
-/// Input and output, and others that they could be.
-pub(crate) struct Chosen {
-    #[cfg_attr(not(feature = "mcap"), allow(dead_code, reason = "no log is read"))]
-    pub(crate) signals: [usize; 2],
-    #[cfg_attr(not(feature = "mcap"), allow(dead_code, reason = "no log is read"))]
-    pub(crate) rivals: Vec<usize>,
-}
-
 #[cfg(not(feature = "mcap"))]
 pub(crate) fn read(path: &Path, _choice: Choice<'_>) -> Result<Table, TableError> {
     Err(unreadable::log(path, "this program was built without the feature `mcap`".to_owned()))
@@ -52,6 +42,7 @@ pub(crate) fn read(path: &Path, _choice: Choice<'_>) -> Result<Table, TableError
 /// A file that is no such log, or holds no message that can be read.
 #[cfg(feature = "mcap")]
 pub(crate) fn read(path: &Path, choice: Choice<'_>) -> Result<Table, TableError> {
+    use crate::chosen::Chosen;
     /// Messages looked at to see what there is.
     const FIRST: usize = 20_000;
     let head = messages::collect(path, None, FIRST)?;
@@ -61,7 +52,7 @@ pub(crate) fn read(path: &Path, choice: Choice<'_>) -> Result<Table, TableError>
     }
     match choice(&table) {
         None => Ok(table),
-        Some(Chosen { signals, rivals }) => {
+        Some(Chosen { signals, rivals, .. }) => {
             let name = |k: usize| table.columns[k].name.clone();
             let names = signals.map(name);
             let mut whole = messages::collect(path, Some(&names), usize::MAX)?.table(path);

@@ -109,15 +109,24 @@ pub fn read(path: &Path, most: u64) -> Result<Vec<u8>, FileError> {
 /// Whether a name says that a stream is no text.
 fn may_hold_zeros(path: &Path) -> bool {
     let is = |ending: &OsStr| {
-        ["mat", "mcap", "parquet", "gz"].iter().any(|known| ending.eq_ignore_ascii_case(known))
+        ["mat", "mcap", "mf4", "parquet", "gz"].iter().any(|known| ending.eq_ignore_ascii_case(known))
     };
     path.extension().is_some_and(is)
 }
 
-/// Whether the first bytes say so: Parquet, UTF-16, MATLAB, HDF5, MCAP, gzip.
+/// Whether the first bytes say so: Parquet, UTF-16, MATLAB, HDF5, MCAP, MDF, gzip.
 fn is_binary(bytes: &[u8]) -> bool {
-    const SIGNATURES: [&[u8]; 7] =
-        [b"PAR1", b"\xff\xfe", b"\xfe\xff", b"MATLAB ", b"\x89HDF", b"\x89MCAP", b"\x1f\x8b"];
+    const SIGNATURES: [&[u8]; 9] = [
+        b"PAR1",
+        b"\xff\xfe",
+        b"\xfe\xff",
+        b"MATLAB ",
+        b"\x89HDF",
+        b"\x89MCAP",
+        b"MDF     ",
+        b"UnFinMF ",
+        b"\x1f\x8b",
+    ];
     SIGNATURES.iter().any(|signature| bytes.starts_with(signature))
 }
 

@@ -9,7 +9,7 @@ use switchback_io::values::positive;
 /// Files of measurements and how to read them, or one rig file.
 #[derive(Debug, Clone, clap::Args)]
 pub(crate) struct DataArgs {
-    /// Files of measurements (CSV in any dialect; .mat, .mcap and .parquet if built with the features `matlab`, `mcap` and `parquet`), one a record; or one rig file (rig.toml).
+    /// Files of measurements (CSV in any dialect; .mat, .mcap, .mf4 and .parquet if built with the features `matlab`, `mcap`, `mdf` and `parquet`), one a record; or one rig file (rig.toml).
     #[arg(required = true, value_name = "DATA")]
     data: Vec<PathBuf>,
 

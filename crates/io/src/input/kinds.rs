@@ -23,7 +23,7 @@ impl FileKind {
     pub fn of(path: &Path) -> Option<Self> {
         let is_ending =
             |wanted: &str| path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case(wanted));
-        if ["mat", "mcap", "parquet"].into_iter().any(is_ending) {
+        if ["mat", "mcap", "mf4", "parquet"].into_iter().any(is_ending) {
             return path.is_file().then_some(Self::Data);
         }
         let text = read_decoded(path).ok()?;

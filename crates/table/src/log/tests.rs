@@ -182,7 +182,7 @@ fn what_is_written_is_read_back() {
         "the same bytes every time"
     );
     let file = File::of("written.mcap", &bytes);
-    let table = crate::log::read(&file.0, &|_| None).expect("a log");
+    let table = crate::log::read(&file.0, &mut |_| None).expect("a log");
     let column = |name: &str| &table.columns.iter().find(|column| column.name == name).expect(name).values;
     for field in &first.fields {
         let same = |(read, written): (&f64, &f64)| {

@@ -2,11 +2,12 @@
 
 use super::clock_source::ClockSource;
 use super::even::{Even, Signals};
+use super::names::ColumnNames;
 use super::request::Request;
 use super::select::Selection;
 use super::taken::Series;
 use super::{counters, rates, two_part_stamps};
-use crate::log::{self, Chosen};
+use crate::chosen::{Chosen, LogReader};
 use crate::table::{Column, DataError, DataProblem, Place, Table, TableError, unit};
 use std::ops::Range;
 use std::path::Path;
@@ -47,22 +48,40 @@ impl Measured {
     /// All that is wrong with it.
     pub fn read(path: &Path, request: Request<'_>) -> Result<Self, Vec<TableError>> {
         let one = |error: TableError| vec![error];
-        if Table::is_log(path).map_err(one)? {
-            return Self::of(Self::logged(path, request).map_err(one)?, request);
+        if let Some(read) = Table::log_reader(path).map_err(one)? {
+            let (table, names) = Self::logged(read, path, request).map_err(one)?;
+            return Self::of(table, Request { names: &names, ..request });
         }
         let table = Table::read(path, if request.needs_output { 2 } else { 1 }).map_err(one)?;
         Self::of(table, request)
     }
 
-    /// The signals of a log that are input and output, or all of its first messages where that is in doubt.
-    fn logged(path: &Path, request: Request<'_>) -> Result<Table, TableError> {
-        log::read(path, &|head| {
-            let Request { names, input_form, needs_output, .. } = request;
+    /// The signals of a log that are input and output, or all of its first rows where that is in doubt; with the names given, of which those that
+    /// are positions among all signals are names of these then.
+    fn logged(
+        read: LogReader,
+        path: &Path,
+        request: Request<'_>,
+    ) -> Result<(Table, ColumnNames), TableError> {
+        let Request { names, input_form, needs_output, .. } = request;
+        let mut found = names.clone();
+        let table = read(path, &mut |head| {
             let selection = Selection::of(head, names, input_form, needs_output).ok()?;
+            let name = |given: &mut Option<String>, k: Option<usize>| {
+                if let (Some(given), Some(k)) = (given, k) {
+                    *given = head.columns[k].label();
+                }
+            };
+            name(&mut found.time, selection.time);
+            name(&mut found.input, Some(selection.input));
+            name(&mut found.output, selection.output);
             let signals = [selection.input, selection.output.unwrap_or(selection.input)];
+            let time = selection.time.filter(|_| names.time.is_some());
             let is_guessed = names.input.is_none() || names.output.is_none();
-            Some(Chosen { signals, rivals: if is_guessed { selection.rivals } else { Vec::new() } })
-        })
+            let rivals = if is_guessed { selection.rivals } else { Vec::new() };
+            Some(Chosen { signals, time, rivals })
+        })?;
+        Ok((table, found))
     }
 
     /// Takes a table that was read.

@@ -39,6 +39,8 @@ pub enum DataProblem {
     NotMatlab { reason: String },
     #[error("the file cannot be read as a log in MCAP: {reason}")]
     NotLog { reason: String },
+    #[error("the file cannot be read as a log in MDF 4: {reason}")]
+    NotMdf { reason: String },
     #[error("the file cannot be read as a table in Parquet: {reason}")]
     NotParquet { reason: String },
     #[error("the header has {found} cells, the rows {expected}")]
@@ -145,6 +147,7 @@ impl DataProblem {
             }
             Self::NotMatlab { .. } => "save numeric vectors of one length, or a CSV file by `writetable`; MATLAB files are read by programs built with `--features matlab`".to_owned(),
             Self::NotLog { .. } => "give a log of ROS 2 (`ros2 bag record -s mcap`), or a CSV file; logs are read by programs built with `--features mcap`".to_owned(),
+            Self::NotMdf { .. } => "copy the file again, or write a CSV file from it (`MDF(\"log.mf4\").export(\"csv\")` of asammdf); MDF 4 is read by programs built with `--features mdf`".to_owned(),
             Self::NotParquet { .. } => "copy the file again, or write a CSV file from it (`frame.to_csv`); Parquet is read by programs built with `--features parquet`".to_owned(),
             Self::HeaderWidth { .. } => "give every column its name in the header, and none to spare".to_owned(),
             Self::Ragged { .. } => {

@@ -36,9 +36,10 @@ pub use memory::Cells;
 pub use places::Places;
 pub use table_error::TableError;
 
+use crate::chosen::LogReader;
 use crate::door::{LARGEST, read_within};
 use crate::text_pieces::{PieceError, TextPieces};
-use crate::{encodings, log, mat, parquet_file};
+use crate::{encodings, log, mat, mdf, parquet_file};
 use body::Rows;
 use dialect::Dialect;
 use head::Head;
@@ -104,13 +105,18 @@ impl Table {
         }
     }
 
-    /// Whether a file is a log of topics rather than a table.
+    /// What reads a file that is a log of signals, each with a clock of its own, rather than a table.
     ///
     /// # Errors
     /// A file that cannot be opened.
-    pub(crate) fn is_log(path: &Path) -> Result<bool, TableError> {
+    pub(crate) fn log_reader(path: &Path) -> Result<Option<LogReader>, TableError> {
         let pieces = TextPieces::open(path).map_err(TableError::File)?;
-        Ok(log::is_log(path, pieces.first_bytes()))
+        let is = |kind: fn(&Path, &[u8]) -> bool| kind(path, pieces.first_bytes());
+        Ok(match () {
+            () if is(log::is_log) => Some(log::read),
+            () if is(mdf::is_mdf) => Some(mdf::read),
+            () => None,
+        })
     }
 
     /// The table in a text.
@@ -130,7 +136,7 @@ impl Table {
     ) -> Result<bool, TableError> {
         let pieces = TextPieces::open(path).map_err(TableError::File)?;
         let is = |kind: fn(&Path, &[u8]) -> bool| kind(path, pieces.first_bytes());
-        if is(mat::is_matlab) || is(log::is_log) || is(parquet_file::is_parquet) {
+        if is(mat::is_matlab) || is(log::is_log) || is(mdf::is_mdf) || is(parquet_file::is_parquet) {
             return Ok(false);
         }
         match Self::in_batches(path, pieces, (least, most), take) {
