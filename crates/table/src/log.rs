@@ -36,7 +36,8 @@ pub(crate) fn read(path: &Path, _choice: Choice<'_>) -> Result<Table, TableError
     Err(unreadable::log(path, "this program was built without the feature `mcap`".to_owned()))
 }
 
-/// The columns chosen, with their clocks; those of the first messages where nothing can be chosen.
+/// The columns chosen, with their clocks; those of the first messages where nothing can be chosen. Rows of other topics are no samples of these, and
+/// their clocks no clocks.
 ///
 /// # Errors
 /// A file that is no such log, or holds no message that can be read.
@@ -47,9 +48,6 @@ pub(crate) fn read(path: &Path, choice: Choice<'_>) -> Result<Table, TableError>
     const FIRST: usize = 20_000;
     let head = messages::collect(path, None, FIRST)?;
     let table = head.table(path);
-    if head.is_whole() {
-        return Ok(table);
-    }
     match choice(&table) {
         None => Ok(table),
         Some(Chosen { signals, rivals, .. }) => {

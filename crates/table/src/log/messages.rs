@@ -33,7 +33,6 @@ pub(super) struct Messages {
     count: usize,
     /// Why no more messages came, where that is not the end of the log.
     broken: Option<String>,
-    is_whole: bool,
 }
 
 /// Reads the first messages of a log, of all topics or the columns named.
@@ -62,7 +61,6 @@ pub(super) fn collect(path: &Path, names: Option<&[String; 2]>, most: usize) -> 
             return Ok(found);
         }
     }
-    found.is_whole = true;
     match &found.broken {
         Some(reason) if found.topics.is_empty() => Err(unreadable::log(path, reason.clone())),
         _ if found.topics.is_empty() => {
@@ -84,11 +82,6 @@ fn definition(channel: &Channel<'_>) -> Option<Definition> {
 }
 
 impl Messages {
-    /// Whether nothing is left to be read.
-    pub(super) fn is_whole(&self) -> bool {
-        self.is_whole
-    }
-
     fn add(&mut self, message: &Message<'_>, definition: Option<&Definition>, names: Option<&[String; 2]>) {
         let topic = &message.channel.topic;
         let mut values: Vec<(String, f64)> = Vec::new();

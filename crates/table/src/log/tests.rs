@@ -194,3 +194,26 @@ fn what_is_written_is_read_back() {
     let measured = file.measured([Some("/b.input"), Some("/b.nominal")]).expect("a good log");
     assert!((measured.sample_time - 0.005).abs() < 1e-9 && (measured.v[9] - 50.0 - command(9)).abs() < 1e-12);
 }
+
+#[test]
+fn signals_of_one_topic_have_its_clock_wherever_it_stands() {
+    use super::{LogField, LogTopic, log_bytes};
+    let topic = |name: &str, step: u64| LogTopic {
+        name: name.to_owned(),
+        instants: (0..ROWS as u64).map(|k| step * k).collect(),
+        fields: ["input", "nominal"]
+            .map(|name| LogField {
+                name: name.to_owned(),
+                comment: String::new(),
+                values: (0..ROWS).map(|k| command(k.saturating_sub(name.len()))).collect(),
+            })
+            .into(),
+    };
+    let file =
+        File::of("rates.mcap", &log_bytes(&[topic("/a", 1_000_000), topic("/b", 5_000_000)]).expect("a log"));
+    for (topic, wanted) in [("/a", 0.001), ("/b", 0.005)] {
+        let [input, output] = ["input", "nominal"].map(|name| format!("{topic}.{name}"));
+        let measured = file.measured([Some(&input), Some(&output)]).expect("a good log");
+        assert!((measured.sample_time - wanted).abs() < 1e-9, "{topic} {}", measured.sample_time);
+    }
+}
