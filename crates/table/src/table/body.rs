@@ -30,6 +30,14 @@ impl Column {
         self.codes.push(place.map_or(0, |place| place as u8 + 1));
     }
 
+    /// Takes what looked like numbers with units for names: another cell is one.
+    fn become_text(&mut self) {
+        self.kind = Kind::Text;
+        self.has_units = false;
+        self.unit = None;
+        self.values.fill(f64::NAN);
+    }
+
     /// Adds a cell that is neither a value nor missing.
     pub(super) fn add_fault(&mut self, fault: Fault) {
         self.fault_count += 1;
@@ -231,6 +239,8 @@ pub(super) struct Reader {
     is_long: bool,
     /// Whether a number stood without a unit, other than 0.
     is_plain: bool,
+    /// Whether numbers with units may be names.
+    is_name: bool,
     /// How times are written.
     format: Option<Format>,
     /// Whether stamps are times of day.
@@ -259,6 +269,9 @@ impl Reader {
             column.kind = self.kind(cell, text, decimal);
             column.origin = if column.kind == Kind::Stamp { self.first_stamp } else { 0 };
             self.is_long = column.kind == Kind::Number && is_long(text);
+        }
+        if cell == Cell::Text && column.has_units && self.is_name {
+            column.become_text();
         }
         let value = match (column.kind, cell) {
             (Kind::Stamp, Cell::Stamp(now)) if !self.is_clock => Some(self.since_first(now)),
@@ -292,6 +305,7 @@ impl Reader {
         if self.is_plain {
             return None;
         }
+        self.is_name |= cell::is_name(text);
         column.has_units = true;
         let own = column.unit.get_or_insert_with(|| unit::bare(unit).unwrap_or_else(|| unit.to_owned()));
         unit::is_same(own, unit).then_some(value)

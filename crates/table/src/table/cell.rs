@@ -70,6 +70,12 @@ fn otherwise(cell: &str, decimal: Decimal, format: &mut Option<Format>) -> Cell 
     }
 }
 
+/// Whether a number with a unit may be a name: `12Hz`, but neither `12 Hz` nor `12%`.
+pub(super) fn is_name(cell: &str) -> bool {
+    let unit = cell.trim_start_matches(|c: char| c.is_ascii_digit() || "+-.,".contains(c));
+    unit.starts_with(char::is_alphabetic)
+}
+
 /// A number and the unit behind it, as in `31.0 °C` and `12.3%`.
 pub(super) fn quantity(cell: &str, decimal: Decimal) -> Option<(f64, &str)> {
     let is_part = |sign: char| sign.is_ascii_digit() || "+-.,eE\u{2212}".contains(sign);

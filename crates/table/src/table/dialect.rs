@@ -101,12 +101,8 @@ impl Dialect {
 
     /// Where no row holds units, a number with a unit stands above the table.
     fn count(&self, cells: &[&str]) -> Count {
-        let Count { mut numbers, mut texts, quantities } = Count::of(cells, self.decimal);
-        if !self.has_quantities {
-            numbers -= quantities;
-            texts += quantities;
-        }
-        Count { numbers, texts, quantities }
+        let count = Count::of(cells, self.decimal);
+        if self.has_quantities { count } else { count.without_quantities() }
     }
 }
 
@@ -129,6 +125,12 @@ impl Count {
         }
         count
     }
+
+    /// Numbers with units taken as texts.
+    fn without_quantities(self) -> Self {
+        let Self { numbers, texts, quantities } = self;
+        Self { numbers: numbers - quantities, texts: texts + quantities, quantities: 0 }
+    }
 }
 
 /// The mean share of numbers among the cells that say something, over lines of the commonest width.
@@ -137,10 +139,17 @@ fn judged(lines: &[&str], (delimiter, decimal): (Delimiter, Decimal), form: Form
     let mut counts: Vec<(usize, Count)> = Vec::with_capacity(lines.len());
     for line in lines {
         form.split(line, delimiter, &mut cells);
-        let count = Count::of(&cells, decimal);
+        let mut count = Count::of(&cells, decimal);
+        // Among blanks `5s` is a word of a sentence.
+        if delimiter == Delimiter::Blanks {
+            count = count.without_quantities();
+        }
         if cells.len() >= 2 && count.numbers >= 1 {
             counts.push((cells.len(), count));
         }
+    }
+    if form.is_named() && !have_names(lines, delimiter, form) {
+        return None;
     }
     let mut widths: HashMap<usize, usize> = HashMap::new();
     for (width, _) in &counts {
@@ -156,6 +165,17 @@ fn judged(lines: &[&str], (delimiter, decimal): (Delimiter, Decimal), form: Form
     let has_two = rows.iter().any(|count| count.numbers >= 2);
     let has_quantities = 2 * rows.iter().filter(|count| count.quantities > 0).count() > rows.len();
     has_two.then_some((score, Dialect { delimiter, decimal, width, form, texts, has_quantities }))
+}
+
+/// Whether most lines that hold names hold the same ones.
+fn have_names(lines: &[&str], delimiter: Delimiter, form: Form) -> bool {
+    let names = |line: &&str| -> Vec<String> {
+        let pairs = form.pairs(line, delimiter).into_iter();
+        pairs.map(|(name, _)| name.to_owned()).filter(|name| !name.is_empty()).collect()
+    };
+    let all: Vec<Vec<String>> = lines.iter().map(names).filter(|names| names.len() >= 2).collect();
+    let usual = all.get(all.len() / 2);
+    2 * all.iter().filter(|names| Some(*names) == usual).count() > all.len()
 }
 
 #[cfg(test)]

@@ -142,8 +142,9 @@ impl Arrival {
 fn named(cell: &str, sign: char) -> Option<(&str, &str)> {
     let (name, value) = cell.split_once(sign)?;
     let name = name.trim().trim_matches(['"', '\'']);
-    let is_name =
-        name.starts_with(|first: char| first.is_alphabetic() || first == '_') && name.len() <= LONGEST;
+    let is_name = name.starts_with(|first: char| first.is_alphabetic() || first == '_')
+        && name.len() <= LONGEST
+        && !name.contains([',', ';', '|', '\t']);
     is_name.then(|| (name, value.trim()))
 }
 

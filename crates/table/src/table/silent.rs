@@ -23,12 +23,18 @@ pub(super) fn is_mark(line: &str, dialect: &Dialect) -> bool {
     dialect.delimiter.split(text, &mut cells);
     // `,force` names the second of two columns.
     let is_single = match &cells[..] {
-        [_] => dialect.width > 1,
+        [_] => dialect.width > 1 && !is_split_otherwise(text, dialect.width),
         [_, others @ ..] => dialect.width > 2 && others.iter().all(|cell| cell.is_empty()),
         [] => true,
     };
     // Blanks separate the words of any sentence.
     (is_framed && dialect.delimiter == Delimiter::Blanks) || is_drawn || is_single
+}
+
+/// Whether a line has as many cells as there are columns by another delimiter than the rows'.
+fn is_split_otherwise(text: &str, width: usize) -> bool {
+    let by_sign = [',', ';', '\t', '|'].into_iter().any(|sign| text.split(sign).count() == width);
+    by_sign || text.split("  ").filter(|cell| !cell.trim().is_empty()).count() >= width
 }
 
 /// Words before settings of the channels, one a column; lower case.

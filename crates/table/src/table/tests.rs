@@ -81,6 +81,16 @@ fn a_column_may_have_no_name() {
 }
 
 #[test]
+fn a_comment_may_name_the_columns_with_delimiters_of_its_own() {
+    let wanted = ["clock", "stroke", "load"];
+    for head in ["# clock  stroke  load", "# clock, stroke, load", "clock\tstroke\tload"] {
+        assert_eq!(labels(head, SEMICOLONS), wanted, "{head}");
+    }
+    let keyed = "# name: clock  name: stroke  name: load\n# unit: s  unit: mm  unit: N";
+    assert_eq!(labels(keyed, SEMICOLONS), ["clock [s]", "stroke [mm]", "load [N]"]);
+}
+
+#[test]
 fn keys_stand_before_names_and_units() {
     let wanted = ["clock [s]", "stroke [mm]", "load [N]"];
     for head in [
@@ -131,6 +141,8 @@ fn units_behind_numbers_are_the_column_s() {
     }
     let zero = format!("clock,load\n{}9,0\n", rows(|k| format!("{k}.5 N")));
     assert_eq!(read(&zero).unwrap().columns[1].fault_count, 0, "zero is zero in all units");
+    let names = format!("clock,load,name\n{}9 sec,8,chirp\n", rows(|k| format!("{k}.5,12Hz")));
+    assert_eq!(read(&names).unwrap().listing(), "1 `clock [sec]`, 2 `load`, 3 `name`, text");
     let named = format!("clock,load [kN]\n{}", rows(|k| format!("{k}.5 N")));
     assert_eq!(read(&named).unwrap().columns[1].fault_count, 30, "the header says another unit");
 }
