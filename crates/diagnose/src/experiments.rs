@@ -90,50 +90,27 @@ fn inputs(dataset: &Dataset) -> Vec<(ExperimentKind, Vec<f64>)> {
         let x = (k as u64).wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
         ((x ^ (x >> 31)).wrapping_mul(0x9E37_79B9_7F4A_7C15) >> 11) as f64 / (1u64 << 53) as f64
     };
-    let mut out = Vec::new();
-    out.push((
-        ExperimentKind::NestedReversals,
-        (0..n).map(|t| 0.5 + (1.0 - (t % 500) as f64 / 520.0) * (triangle(t, 50.0) - 0.5)).collect(),
-    ));
-    out.push((
-        ExperimentKind::RandomLevels,
-        (0..n)
-            .map(|t| {
-                let (k, effect_term) = (t / 8, (t % 8) as f64 / 8.0);
-                pseudo_random(k) + (pseudo_random(k + 1) - pseudo_random(k)) * effect_term.min(0.75) / 0.75
-            })
-            .collect(),
-    ));
-    out.push((
-        ExperimentKind::Sweep,
-        (0..n)
-            .map(|t| {
-                let x = t as f64 / n as f64;
-                0.5 + 0.5 * (2.0 * PI * (3.0 * x + 0.5 * 0.12 * n as f64 * x * x)).sin()
-            })
-            .collect(),
-    ));
-    out.push((
-        ExperimentKind::SeveralRates,
-        (0..n).map(|t| triangle(t % (n / 3), [200.0, 50.0, 12.5][(3 * t / n).min(2)])).collect(),
-    ));
-    out.push((
-        ExperimentKind::Prbs,
-        (0..n).map(|t| f64::from(u8::from(pseudo_random(t / 4) > 0.5))).collect(),
-    ));
-    out.push((
-        ExperimentKind::Rest,
-        (0..n)
-            .map(|t| {
-                let (k, effect_term) = (t / 150, (t % 150) as f64 / 10.0);
-                pseudo_random(k) + (pseudo_random(k + 1) - pseudo_random(k)) * effect_term.min(1.0)
-            })
-            .collect(),
-    ));
-    out.push((
-        ExperimentKind::AmplitudeSeries,
-        (0..n).map(|t| 0.5 + (0.1 + 0.9 * (t / 100) as f64 / 14.0) * (triangle(t, 50.0) - 0.5)).collect(),
-    ));
+    // Towards the next level at a pace, then at rest.
+    let levels = |t: usize, held: usize, pace: f64, from: f64| {
+        let (k, share) = (t / held, ((t % held) as f64 / pace).min(from));
+        pseudo_random(k) + (pseudo_random(k + 1) - pseudo_random(k)) * share / from
+    };
+    let sweep = |t: usize| {
+        let x = t as f64 / n as f64;
+        0.5 + 0.5 * (2.0 * PI * (3.0 * x + 0.06 * n as f64 * x * x)).sin()
+    };
+    let rates = |t: usize| triangle(t % (n / 3), [200.0, 50.0, 12.5][(3 * t / n).min(2)]);
+    let swing = |t: usize, width: f64| 0.5 + width * (triangle(t, 50.0) - 0.5);
+    let all: [(ExperimentKind, &dyn Fn(usize) -> f64); 7] = [
+        (ExperimentKind::NestedReversals, &|t| swing(t, 1.0 - (t % 500) as f64 / 520.0)),
+        (ExperimentKind::RandomLevels, &|t| levels(t, 8, 8.0, 0.75)),
+        (ExperimentKind::Sweep, &sweep),
+        (ExperimentKind::SeveralRates, &rates),
+        (ExperimentKind::Prbs, &|t| f64::from(u8::from(pseudo_random(t / 4) > 0.5))),
+        (ExperimentKind::Rest, &|t| levels(t, 150, 10.0, 1.0)),
+        (ExperimentKind::AmplitudeSeries, &|t| swing(t, 0.1 + 0.9 * (t / 100) as f64 / 14.0)),
+    ];
+    let mut out: Vec<_> = all.into_iter().map(|(kind, v)| (kind, (0..n).map(v).collect())).collect();
     if let Some(first) = dataset.fit().next() {
         out.push((ExperimentKind::RepeatOfFirst, first.v.iter().copied().take(2 * n).collect()));
     }

@@ -1,51 +1,6 @@
 //! The sim-to-real gap of a switched-hysteresis model: where it lies, which unmodelled effect causes it, how far it closes.
 //!
-//! A rig in, a [`Diagnosis`] out. From vectors:
-//!
-//! ```
-//! use switchback_model::Record;
-//! use switchback_model::rig::{Rig, RigRecord, Role, Usage};
-//! use switchback_diagnose::{Effect, Model, Settings, diagnose};
-//!
-//! // Records: put your own measurements here. This machine has a play of 0.2 before its two borders.
-//! let machine = |v: &[f64]| -> Vec<f64> {
-//!     let (mut p, mut u, mut y, mut noise) = (v[0], 0.0, 0.0, 1_u64);
-//!     let mut step = |v: f64| {
-//!         noise = noise.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-//!         y = 0.6 * y + 0.4 * u + 0.02 * ((noise >> 40) as f64 / (1 << 24) as f64 - 0.5);
-//!         let moved = p.clamp(v - 0.1, v + 0.1) - p;
-//!         p += moved;
-//!         u = if moved > 0.0 { p + 0.5 } else if moved < 0.0 { p - 0.5 } else { u };
-//!         y
-//!     };
-//!     v.iter().map(|v| step(*v)).collect()
-//! };
-//! let record = |name: &str, usage, samples: usize, phase: f64| -> Result<RigRecord, Box<dyn std::error::Error>> {
-//!     let drive = |t: f64| 0.55 * (0.17 * t + phase).sin() + 0.45 * (0.025 * t).cos();
-//!     let v: Vec<f64> = (0..samples).map(|t| drive(t as f64)).collect();
-//!     let y = machine(&v);
-//!     Ok(RigRecord { name: name.into(), role: Role::Free, usage, record: Record::new(v, y)?, predicted: None })
-//! };
-//! let rig = Rig {
-//!     name: "bench".into(),
-//!     sample_time: 0.01,
-//!     order: Some(1),
-//!     interval: None,
-//!     input_label: "travel [mm]".into(),
-//!     output_label: "force [kN]".into(),
-//!     records: vec![record("monday", Usage::Fit, 3000, 0.0)?, record("tuesday", Usage::Holdout, 1500, 1.0)?],
-//! };
-//!
-//! // Only two candidates, so that this example takes a moment; `Settings::default()` has all.
-//! let settings = Settings { effects: vec![Effect::Backlash, Effect::Creep], ..Settings::default() };
-//! let diagnosis = diagnose(&rig, Model::Identify, &settings)?;
-//! assert_eq!(diagnosis.verdict.effects, [Effect::Backlash]);
-//! assert!(diagnosis.verdict.to_string().starts_with("named: backlash (operator)"));
-//! # Ok::<(), Box<dyn std::error::Error>>(())
-//! ```
-//!
-//! `examples/diagnose.rs` goes on: it runs the repaired model, [`Diagnosis::models`], on a new input. To give the work to threads, implement
-//! [`Workers`] and call [`diagnose_with`]; to follow its progress, see [`Phase`].
+#![doc = include_str!("example.md")]
 //!
 //! Its private modules, in the order in which a diagnosis passes through them:
 //!
@@ -103,37 +58,22 @@ mod testing;
 mod verdict;
 mod workers;
 
-pub use comparison::Compared;
-pub use comparison::Comparison;
-pub use diagnose::classify;
-pub use diagnose::diagnose;
-pub use diagnose::diagnose_with;
-pub use diagnosis::Candidate;
-pub use diagnosis::Cell;
-pub use diagnosis::CellInterval;
-pub use diagnosis::CellUnit;
-pub use diagnosis::Diagnosis;
-pub use diagnosis::ExperimentKind;
-pub use diagnosis::Gap;
-pub use diagnosis::HoldoutSeries;
-pub use diagnosis::NextExperiment;
-pub use diagnosis::ResidualPicture;
-pub use diagnosis::Together;
-pub use effect::Effect;
-pub use effect::Stage;
+pub use comparison::{Compared, Comparison};
+pub use diagnose::{classify, diagnose, diagnose_with};
+pub use diagnosis::{
+    Candidate, Cell, CellInterval, CellUnit, Diagnosis, ExperimentKind, Gap, HoldoutSeries, NextExperiment,
+    ResidualPicture, Together,
+};
+pub use effect::{Effect, Stage};
 pub use error::DiagnoseError;
-pub use export::LooksAhead;
-pub use export::PortableModel;
+pub use export::{LooksAhead, PortableModel};
 pub use figure::Figure;
 pub use fitted_parameter::FittedParameter;
-pub use horizon::Horizon;
-pub use horizon::HorizonGain;
+pub use horizon::{Horizon, HorizonGain};
 pub use nominal_model::NominalModel;
 pub use phase::Phase;
-pub use settings::Model;
-pub use settings::Settings;
-pub use verdict::answer::Status;
-pub use verdict::answer::Verdict;
+pub use settings::{Model, Settings};
+pub use verdict::answer::{Status, Verdict};
 pub use verdict::fitted;
 #[cfg(test)]
 pub(crate) use workers::Serial;

@@ -73,7 +73,7 @@ fn an_output_that_is_slower_sets_the_rate() {
 #[test]
 fn signals_on_rows_of_their_own_are_joined() {
     let text = table("time,travel,force", |_, t, v, y| format!("{t:.4},{v},\n{:.4},,{y}", t + 0.0004));
-    let loaded = load(text, &[]);
+    let loaded = load(&text, &[]);
     assert_eq!(loaded.rig.sample_time, 0.01);
     assert!(signals(&loaded)[1].len() >= SAMPLES - 1, "{}", loaded.reported);
     assert!(loaded.reported.to_string().contains("at 100 Hz"), "{}", loaded.reported);

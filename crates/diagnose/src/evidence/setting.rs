@@ -4,6 +4,7 @@ use super::context::{Context, Signal};
 use switchback_model::system::Motion;
 
 /// One entry a sample, records joined.
+#[derive(Default)]
 pub(super) struct Setting {
     /// Number of the record.
     pub(super) record: Vec<usize>,
@@ -46,24 +47,7 @@ impl Setting {
         let (low, high) = base.borders.range();
         let range = context.scale.travel.max(f64::MIN_POSITIVE);
         let tiny = 1e-4 * range;
-        let mut out = Self {
-            record: Vec::new(),
-            clock: Vec::new(),
-            branch: Vec::new(),
-            travel: Vec::new(),
-            since: Vec::new(),
-            rest: Vec::new(),
-            speed: Vec::new(),
-            position: Vec::new(),
-            level: Vec::new(),
-            follows: Vec::new(),
-            u: Vec::new(),
-            half: Vec::new(),
-            slope: Vec::new(),
-            move_of_u: Vec::new(),
-            travelled: Vec::new(),
-            starts: vec![0],
-        };
+        let mut out = Self { starts: vec![0], ..Self::default() };
         let (mut half_sum, mut path) = (0.0, 0.0);
         for (k, stretch) in context.stretches.iter().enumerate() {
             let motion = Motion::of(&stretch.v, base.rule);

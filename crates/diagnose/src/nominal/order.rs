@@ -294,12 +294,12 @@ fn structures(dataset: &Dataset, settings: &Settings) -> Vec<Structure> {
     all
 }
 
-/// A simulator beside those tried: in the place of one of its structure that simulates less well.
+/// A simulator beside those tried, or in the place of a worse one of its order and lead.
 fn add(tried: &mut Vec<Tried>, structure: Structure, simulator: Option<Fit>) {
     let found = Tried { structure, one_step: f64::INFINITY, simulator };
-    let is_same = |t: &&mut Tried| (t.structure.order, t.structure.lead) == (structure.order, structure.lead);
-    match tried.iter_mut().find(is_same) {
-        Some(known) if found.simulated() < known.simulated() => known.simulator = found.simulator,
+    let alike = |t: &Tried| (t.structure.order, t.structure.lead) == (structure.order, structure.lead);
+    match tried.iter().position(alike) {
+        Some(at) if found.simulated() < tried[at].simulated() => tried[at].simulator = found.simulator,
         Some(_) => {}
         None => tried.push(found),
     }
