@@ -8,7 +8,8 @@ use crate::attribution::PairEffort;
 use crate::attribution::explain::Hypothesis;
 use crate::error::DiagnoseError;
 use crate::export::Exporter;
-use crate::nominal::order::{Chosen, Structure};
+use crate::nominal::order::Chosen;
+use crate::nominal::structure::Structure;
 use crate::records::dataset::Dataset;
 use crate::settings::{Model, Settings};
 

@@ -15,7 +15,7 @@ use crate::figure::Figure;
 use crate::fitted_parameter::FittedParameter;
 use crate::likelihood::engine::Fit;
 use crate::localise::{Residuals, localise};
-use crate::nominal::order::Structure;
+use crate::nominal::structure::Structure;
 use crate::residuals::score::{innovations, picture};
 use crate::verdict::answer::{Refit, Status, Verdict};
 use crate::verdict::odds::Odds;

@@ -1,6 +1,6 @@
 //! The structure that cross-validation of the free run chooses, as a start of a simulator.
 
-use super::order::{ROUNDS, SIMULATION, Structure};
+use super::structure::{ROUNDS, SIMULATION, Structure};
 use crate::evidence::nominal;
 use crate::likelihood::engine::{Fit, FitContext, fit};
 use crate::model::augmented::AugmentedModel;
@@ -23,7 +23,7 @@ impl Identified {
         let records = rig.records.iter().filter(|r| r.usage == Usage::Fit).map(|r| &r.record);
         let system = nominal(&records.collect::<Vec<_>>(), None).ok()??;
         let a = system.linear.a().to_vec();
-        let structure = Structure::of_order(a.len()).at_lead(1 - system.linear.lag());
+        let structure = Structure { lead: 1 - system.linear.lag(), ..Structure::of_order(a.len()) };
         let mut b = system.linear.b();
         b.resize(a.len(), 0.0);
         let border = |branch| system.borders.points(branch).collect();

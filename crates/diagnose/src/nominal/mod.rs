@@ -6,3 +6,4 @@ pub(crate) mod identified;
 pub(crate) mod identify;
 pub(crate) mod knots;
 pub(crate) mod order;
+pub(crate) mod structure;

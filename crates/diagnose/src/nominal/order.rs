@@ -11,6 +11,7 @@ use crate::model::stability::settles;
 use crate::nominal::identified::Identified;
 use crate::nominal::identify::{first_fit, identify};
 use crate::nominal::knots::{first_grid, refine};
+use crate::nominal::structure::{ROUNDS, SIMULATION, Structure};
 use crate::records::dataset::{Criterion, Dataset, ScaledRecord};
 use crate::records::motion::Begins;
 use crate::residuals::score::innovations;
@@ -56,10 +57,6 @@ pub(crate) struct Simulator {
 const LEADS: isize = 2;
 /// The lead at which an output follows the input within its sample, the largest in real time.
 const PRESENT: isize = 1;
-/// Orders above one chosen, and samples of delay beyond its own, at which a structure is asked whether it does what an effect does: a
-/// mode is two orders more.
-const HIGHER: usize = 2;
-const LATER: isize = 3;
 /// A structure this much worse than the best, as a ratio of mean squares, is as good if it is simpler.
 const AS_GOOD: f64 = 1.03;
 /// Below this ratio of mean squares, the one-step fit is no efficient estimate of a simulator.
@@ -68,53 +65,6 @@ const EFFICIENT: f64 = 0.8;
 const NOISE: f64 = 2.0;
 /// Share of the innovations' variance predicted by their past, from which the equation error is not white for any use.
 const COLOURED: f64 = 0.1;
-/// Rounds of fitting as a simulator while structures are compared.
-pub(super) const ROUNDS: usize = 10;
-
-/// What is chosen besides the criterion.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct Structure {
-    pub(crate) order: usize,
-    /// Samples by which the output follows the input sooner than in the paper, or later where it is negative.
-    pub(crate) lead: isize,
-    begins: Begins,
-}
-
-impl Structure {
-    /// In words.
-    fn reported(&self) -> String {
-        let lead = match self.lead {
-            0 => String::new(),
-            1 => " and an output that follows the input within its sample".to_owned(),
-            lead if lead < 0 => format!(" and {} samples of extra delay", -lead),
-            lead => format!(" and an output {} sample ahead of the input", lead - 1),
-        };
-        format!("the rig declares no order: order {}{lead}", self.order)
-    }
-
-    /// Structures that could describe an effect of the dynamics, or with `is_late` a delay, simpler ones first.
-    pub(crate) fn wider(self, is_late: bool) -> Vec<Self> {
-        let later = (1..=LATER).map(|by| self.at_lead(self.lead - by));
-        let higher = (1..=HIGHER).map(|by| Self { order: self.order + by, ..self });
-        later.filter(|_| is_late).chain(higher).collect()
-    }
-
-    /// That of a model in the form of the paper.
-    pub(crate) fn of_order(order: usize) -> Self {
-        Self { order, lead: 0, begins: Begins::default() }
-    }
-
-    /// The same order at another lead.
-    pub(super) fn at_lead(self, lead: isize) -> Self {
-        Self { lead, ..self }
-    }
-
-    /// The records as this structure sees them.
-    pub(crate) fn applied(&self, dataset: &Dataset) -> Dataset {
-        dataset.with_branches_from(self.begins).led_by(self.lead).counted_for(self.order)
-    }
-}
-
 /// One structure tried: mean square simulation errors of the fit one step ahead and of the fit as a simulator.
 struct Tried {
     structure: Structure,
@@ -269,9 +219,6 @@ fn white_share(fit: &Fit) -> f64 {
     let weighed = weights.by_scaled(&raw);
     unpredictable_variance(&weighed) / mean_square(&weighed).max(1e-300)
 }
-
-/// Each error counted for one.
-pub(super) const SIMULATION: Criterion = Criterion::Simulation { share: 1.0 };
 
 fn unstable() -> DiagnoseError {
     DiagnoseError::Singular { reason: "every order tried gives an unstable model".into() }
