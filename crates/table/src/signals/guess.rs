@@ -149,6 +149,18 @@ pub(super) enum Quantity {
     Effort,
 }
 
+impl Quantity {
+    /// In words.
+    pub(super) fn name(self) -> &'static str {
+        match self {
+            Self::Place => "position",
+            Self::Unknown => "signal",
+            Self::Speed => "speed",
+            Self::Effort => "force or current",
+        }
+    }
+}
+
 /// What a signal is.
 pub(super) fn quantity(column: &Column) -> Quantity {
     let own = simplified(last_part(&column.name));

@@ -1,6 +1,6 @@
 //! The columns that can be input or output, and what their names and units say.
 
-use super::guess::{self, Part, Surety};
+use super::guess::{self, Part, Quantity, Surety};
 use super::input_form::InputForm;
 use super::pairs::{Commanded, Likeness, pairs};
 use super::spelling::simplified;
@@ -25,6 +25,8 @@ pub(super) struct Choice {
     pub(super) is_weak: bool,
     /// Other commands with their responses.
     pub(super) other_pairs: Vec<Commanded>,
+    /// What is called a response, but of another quantity than the command.
+    pub(super) unlike: Option<usize>,
 }
 
 impl Offer<'_> {
@@ -35,10 +37,16 @@ impl Offer<'_> {
     /// What names say, then units, then what is left where one is known.
     pub(super) fn by_names(&self, input: Option<usize>, output: Option<usize>) -> Choice {
         let rest = |other: Option<usize>| self.signals.iter().copied().filter(move |k| Some(*k) != other);
+        let is_given = output.is_some();
         let mut choice = self.paired(input, output);
-        let Choice { input, output, is_weak, .. } = &mut choice;
+        let Choice { input, output, is_weak, unlike, .. } = &mut choice;
         *output = output.or_else(|| self.called(&[Part::Output, Part::Response], *input));
         *input = input.or_else(|| self.commanded(*output));
+        if let (Some(command), Some(called), false) = (*input, *output, is_given)
+            && let Some(own) = self.of_own_quantity(command, called)
+        {
+            (*output, *unlike) = (Some(own), Some(called));
+        }
         if input.is_none() && output.is_none() {
             (*input, *output) = match (self.called(&[Part::Drive], None), self.called(&[Part::Answer], None))
             {
@@ -71,6 +79,30 @@ impl Offer<'_> {
         }
         let is_other = |k: &usize| Some(*k) != output && guess::is_reference(self.column(*k));
         only(self.signals.iter().copied().filter(is_other)).or(Some(found))
+    }
+
+    /// The signal of a command's own quantity, where what is called a response is of another one: `pos` for `input_pos` beside `Iq_measured`.
+    /// Of several it is the one whose name shares most words with the command's.
+    fn of_own_quantity(&self, command: usize, called: usize) -> Option<usize> {
+        let quantity = |k: usize| guess::quantity(self.column(k));
+        let is = |k: usize, part: Part| guess::surety(self.column(k), part).is_some();
+        let is_answer = is(called, Part::Response)
+            && (!is(called, Part::Output) || guess::is_reference(self.column(command)));
+        let is_unlike = ![quantity(command), Quantity::Unknown].contains(&quantity(called));
+        if !is_answer || !is_unlike || quantity(command) == Quantity::Unknown || !is(command, Part::Command) {
+            return None;
+        }
+        let is_free = |k: &usize| {
+            *k != command
+                && quantity(*k) == quantity(command)
+                && !is(*k, Part::Command)
+                && !guess::is_of_controller(self.column(*k))
+                && !guess::is_deviation(self.column(*k))
+        };
+        let asked = guess::named(self.column(command));
+        let shared =
+            |k: &usize| guess::named(self.column(*k)).iter().filter(|word| asked.contains(word)).count();
+        self.signals.iter().copied().filter(is_free).max_by_key(|k| (shared(k), std::cmp::Reverse(*k)))
     }
 
     /// Another column that is called an input, and nothing else.
@@ -123,6 +155,7 @@ impl Offer<'_> {
             is_pair,
             is_weak: first.likeness == Likeness::Plain,
             other_pairs: if input.is_none() && output.is_none() { other_pairs } else { Vec::new() },
+            unlike: None,
         }
     }
 

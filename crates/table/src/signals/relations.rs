@@ -142,6 +142,12 @@ impl Relations {
         own < self.least && between().any(|gain| gain >= STRONG.max(CLEARLY * self.least))
     }
 
+    /// Whether the past of one of two signals says something of the other.
+    pub(super) fn are_connected(&self, a: usize, b: usize) -> bool {
+        let (Some(a), Some(b)) = (self.position(a), self.position(b)) else { return false };
+        self.gains[a][b].max(self.gains[b][a]) >= self.least
+    }
+
     /// Whether the past of `b` says much of `a`, and that of `a` nothing of `b`.
     pub(super) fn is_backward(&self, a: usize, b: usize) -> bool {
         let (Some(a), Some(b)) = (self.position(a), self.position(b)) else { return false };

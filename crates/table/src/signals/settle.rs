@@ -108,12 +108,17 @@ impl Settlement<'_> {
         }
         let others =
             relations.moving_together().into_iter().filter(|k| *k != input && *k != output).collect();
-        let doubt = if choice.is_pair { None } else { self.of_names(&relations, input, output) };
+        let doubt = if choice.is_pair { None } else { self.of_names(choice, &relations, [input, output]) };
         Ok(Settled { others, ..plain(several.or(doubt)) })
     }
 
     /// What may be meant instead of a pair that names say and the data do not refute.
-    fn of_names(&self, relations: &Relations, input: usize, output: usize) -> Option<String> {
+    fn of_names(
+        &self,
+        choice: &Choice,
+        relations: &Relations,
+        [input, output]: [usize; 2],
+    ) -> Option<String> {
         let offer = self.offer;
         let [a, b] = [input, output].map(|k| offer.shown(k));
         let naming = |input: usize, output: usize| {
@@ -131,6 +136,13 @@ impl Settlement<'_> {
             return Some(format!(
                 "{a} is taken for the input, but {c} is called one too; if that is meant, {}",
                 naming(other, output)
+            ));
+        }
+        if let Some(unlike) = choice.unlike.filter(|k| relations.are_connected(input, *k)) {
+            let (kind, c) = (guess::quantity(offer.column(input)).name(), offer.shown(unlike));
+            return Some(format!(
+                "{b} is taken for the output, as a {kind} like {a}, but {c} is called a response and follows too; if that is meant, {}",
+                naming(input, unlike)
             ));
         }
         let is_effort = guess::quantity(offer.column(output)) == Quantity::Effort;

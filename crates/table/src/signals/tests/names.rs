@@ -86,6 +86,29 @@ fn a_place_that_follows_a_command_beside_a_force_is_told() {
 }
 
 #[test]
+fn a_position_answers_a_position_though_a_current_is_called_measured() {
+    let machine = Machine::new(1);
+    let mut noise = noise(7);
+    let current: Vec<f64> = machine
+        .input
+        .iter()
+        .zip(&machine.output)
+        .map(|(v, y)| printed(0.5 * (2.0 * v - y) + 0.2 * noise()))
+        .collect();
+    let columns: [(&str, &[f64]); 3] = [
+        ("drive0.controller.input_pos", &machine.input),
+        ("drive0.mapper.pos_rel", &machine.output),
+        ("drive0.motor.Iq_measured", &current),
+    ];
+    let measured = inferred(&columns).expect("names say it");
+    assert_taken(
+        &measured,
+        ["drive0.controller.input_pos", "drive0.mapper.pos_rel"],
+        Some("but `drive0.motor.Iq_measured` is called a response and follows too"),
+    );
+}
+
+#[test]
 fn words_of_other_languages_and_compounds_are_known() {
     for names in [
         ["Traversenweg absolut", "Standardkraft"],
