@@ -145,13 +145,31 @@ impl Signals<'_> {
             true => 0.0,
             false => seconds.first().copied().unwrap_or(0.0),
         };
-        let even = self.even(self.series(rows.clone()), &stamps, &instants)?;
+        let even = self.even(self.series(rows.clone()), &stamps, &instants);
+        let even = even.map_err(|fault| self.with_other_clock(fault))?;
         let mut notes = instants.notes;
         notes.extend(clock.notes(&raw, even.sample_time, input_form));
         notes.extend(even.notes);
         let mut doubts = even.doubts;
         doubts.extend(clock.doubt(even.sample_time, input_form));
         Ok(Even { start: if even.start.is_nan() { start } else { even.start }, notes, doubts, ..even })
+    }
+
+    /// Names a column that increases evenly, where the clock does not.
+    fn with_other_clock(&self, (sample, mut problem): Fault) -> Fault {
+        let Selection { time, input, output, .. } = *self.selection;
+        let is_free = |k: &usize| ![time, Some(input), output].contains(&Some(*k));
+        let is_even = |k: &usize| guess::is_ramp(self.column(*k)) && !guess::is_index(self.column(*k));
+        if let DataProblem::NotIncreasing(step) = &mut problem
+            && let Some(other) = (0..self.table.columns.len()).filter(is_free).find(is_even)
+        {
+            let Column { name, .. } = self.column(other);
+            let by = if name.is_empty() { (other + 1).to_string() } else { name.clone() };
+            let taken = self.request.input_form.with_time(&by);
+            step.remedy =
+                format!("take another clock, as {taken}, which increases evenly; or {}", step.remedy);
+        }
+        (sample, problem)
     }
 
     /// Whether the clock is the `t` beside `v` that the program itself writes, in seconds.

@@ -122,6 +122,20 @@ pub(super) fn is_ramp(column: &Column) -> bool {
     10 * even >= 9 * steps.len()
 }
 
+/// Whether a column goes on as time does: at most one of ten steps goes back, as where another record begins.
+pub(super) fn increases(column: &Column) -> bool {
+    let finite: Vec<f64> = column.values.iter().copied().filter(|value| value.is_finite()).collect();
+    let back = finite.windows(2).filter(|pair| pair[1] < pair[0]).count();
+    10 * back < finite.len()
+}
+
+/// Whether a column says how long something takes, by its own name: `turnaroundTime`, but not `Cycle Elapsed Time`.
+pub(super) fn is_duration(column: &Column) -> bool {
+    let own = simplified(last_part(&column.name));
+    let has = |list: Words| own.split(' ').any(|word| words::has(list, word));
+    has(words::DURATION) && has(words::DURATION_OF) && !has(&["elapsed, total"])
+}
+
 /// The words of a name without those for a part; none where it has none of them.
 pub(super) fn without(column: &Column, part: Part) -> Option<Vec<String>> {
     let name = simplified(&column.name);

@@ -84,6 +84,15 @@ impl InputForm {
         )
     }
 
+    /// How to take a column for the clock.
+    pub fn with_time(&self, name: &str) -> String {
+        match self {
+            Self::Manifest => format!("`columns = {{ time = {name:?} }}`"),
+            Self::Arguments => format!("`time={name:?}`"),
+            Self::CommandLine(_) | Self::Simulation(_) => format!("`--time {}`", in_shell(name)),
+        }
+    }
+
     /// What to do about a sample time that the stamps contradict.
     pub fn other_sample_time(&self, step: f64) -> String {
         match self {

@@ -167,13 +167,21 @@ fn shared(table: &Table, parts: [(&'static str, Option<usize>); 3]) -> Vec<DataP
     problems
 }
 
-/// The time column: the one that is called so, else the one with time stamps, else the only one that rises evenly.
+/// The time column: the one that is called so and increases, else the one with time stamps, else the only one that rises evenly.
 fn clock(table: &Table, free: &impl Fn(&usize) -> bool) -> Option<usize> {
     let columns = || (0..table.columns.len()).filter(free).filter(|&k| table.columns[k].kind != Kind::Text);
-    let called = columns()
-        .filter(|&k| guess::goes_on(&table.columns[k]) && !guess::is_index(&table.columns[k]))
-        .filter_map(|k| Some((guess::surety(&table.columns[k], Part::Time)?, k)))
-        .max_by_key(|(surety, k)| (*surety, std::cmp::Reverse(*k)));
+    let can_be = |column: &Column| {
+        let is_ruled_out = || guess::is_duration(column) && !guess::is_ramp(column);
+        guess::goes_on(column) && !guess::is_index(column) && !is_ruled_out()
+    };
+    let called = columns().filter(|&k| can_be(&table.columns[k])).filter_map(|k| {
+        let column = &table.columns[k];
+        let surety = guess::surety(column, Part::Time)?;
+        let rank = (guess::increases(column), !guess::is_duration(column), surety, std::cmp::Reverse(k));
+        Some((rank, k))
+    });
+    let called = called.max_by_key(|(rank, _)| *rank);
+    let increasing = called.filter(|((increases, ..), _)| *increases).map(|(_, k)| k);
     let stamps = || columns().find(|&k| table.columns[k].kind == Kind::Stamp);
     let ramp = || {
         let is_free_ramp = |k: &usize| {
@@ -187,7 +195,7 @@ fn clock(table: &Table, free: &impl Fn(&usize) -> bool) -> Option<usize> {
         let mut ramps = columns().filter(is_free_ramp);
         ramps.next().filter(|_| ramps.next().is_none())
     };
-    called.map(|(_, k)| k).or_else(stamps).or_else(ramp)
+    increasing.or_else(stamps).or_else(ramp).or(called.map(|(_, k)| k))
 }
 
 fn is_clock(column: &Column) -> bool {
@@ -200,5 +208,6 @@ fn is_other_clock(column: &Column) -> bool {
     let has_unit = column.unit.as_deref().is_some_and(|unit| unit::seconds(unit).is_some());
     name == Some(Surety::Name)
         || name.is_some() && (has_unit || guess::is_ramp(column))
+        || guess::is_duration(column)
         || column.kind == Kind::Stamp
 }

@@ -15,6 +15,14 @@ pub(super) const TIME: Words = &[
     "zeit, uhrzeit, temps, tiempo, tempo, tid, tijd, czas, cas, время",
     "時間, 時刻, 时间, 時間軸, 시간",
 ];
+/// Beside a word for time: how long something takes, rather than when it is.
+pub(super) const DURATION: Words = &[
+    "turnaround, cycle, execution, exec, response, dead, lap, rise, fall, settling, delay, latency, duration, processing",
+    "computation, calculation, loop, roundtrip, trip, overrun, idle, tot, zyklus, anstiegs, reaktions, antwort, ausfuhrungs",
+    "mort, reponse, montee, ciclo, muerto, respuesta, morto, risposta",
+];
+/// The words for time that may stand beside them.
+pub(super) const DURATION_OF: Words = &["time, times, zeit, temps, tiempo, tempo"];
 /// The input of a machine, whatever is measured on it.
 pub(super) const INPUT: Words = &[
     "v, u, input, in, drive, command, cmd, setpoint, excitation, eingang, consigne, consigna, sollwert",

@@ -55,3 +55,23 @@ fn times_of_day_in_one_number_are_read_over_the_minute() {
     assert!((measured.sample_time - 0.02).abs() < 1e-9 && measured.pieces.len() == 1);
     assert!(measured.table.notes.iter().any(|note| note.contains("HHMMSS")), "{:?}", measured.table.notes);
 }
+
+/// Reads the two signals of a machine between two other columns.
+fn beside(first: (&str, &[f64]), last: (&str, &[f64])) -> Result<Measured, String> {
+    let machine = Machine::new(1);
+    let columns = [first, ("ref [mm]", &machine.input[..]), ("x_meas [mm]", &machine.output[..]), last];
+    read(&columns, &ColumnNames::default(), None)
+}
+
+#[test]
+fn a_clock_increases_and_durations_are_none() {
+    let even: Vec<f64> = (0..SAMPLES).map(|k| printed(0.005 * k as f64)).collect();
+    let took = bystander(2.0, 9);
+    for name in ["task/turnaroundTime", "Time of task", "Zykluszeit [ms]", "dead time"] {
+        let measured = beside(("xAxis", &even), (name, &took)).expect(name);
+        assert_eq!((measured.selection.time, measured.sample_time), (Some(0), 0.005), "{name}");
+        assert_taken(&measured, ["ref", "x_meas"], None);
+    }
+    let refused = beside(("travel", &even), ("time", &took)).unwrap_err();
+    assert!(refused.contains("`--time travel`, which increases evenly"), "{refused}");
+}
