@@ -2,7 +2,7 @@
 
 use super::dialect::Dialect;
 use super::lines::{Delimiter, is_comment};
-use super::{silent, unit};
+use super::{silent, unit, unit_lists};
 use std::collections::HashSet;
 
 /// A name and its unit.
@@ -10,18 +10,30 @@ pub(super) type Named = (String, Option<String>);
 
 /// Names and units behind a key that is repeated: `name: Time  name: Force`, or `Name;Force;Name;Travel` above pairs of times and values.
 /// `step` is from the first row to the next.
-pub(super) fn described(lines: &[(u64, &str)], dialect: &Dialect, step: Option<f64>) -> Option<Vec<Named>> {
+pub(super) fn described<'t>(
+    lines: &[(u64, &'t str)],
+    dialect: &Dialect,
+    step: Option<f64>,
+) -> Option<Vec<Named>> {
     // Below such lines stands no other that could be a header.
     let said = lines.iter().rev().map(|(_, line)| *line).filter(|line| !silent::is_mark(line, dialect));
     let rows = said.map(|line| (is_comment(line), repeated(line, dialect)));
     let rows = rows.take_while(|(is_comment, row)| *is_comment || row.is_some());
-    let rows: Vec<Vec<(&str, &str)>> = rows.filter_map(|(_, row)| row).collect();
-    let behind = |is: &dyn Fn(&str) -> bool| {
-        let found = rows.iter().find(|row| is(&row[0].0.to_lowercase()))?;
-        Some(found.iter().map(|(_, value)| *value).collect::<Vec<_>>())
+    let rows: Vec<Vec<(&'t str, &'t str)>> = rows.filter_map(|(_, row)| row).collect();
+    let values = |row: &[(&'t str, &'t str)]| row.iter().map(|(_, value)| *value).collect::<Vec<_>>();
+    let all = |is: &dyn Fn(&str) -> bool| {
+        let found = rows.iter().filter(|row| is(&row[0].0.to_lowercase()));
+        found.map(|row| values(row)).collect::<Vec<_>>()
     };
-    let names = behind(&|key| ["name", "signal", "channel"].contains(&key));
-    let names = names.or_else(|| behind(&|key| key.contains("name")))?;
+    let behind = |is: &dyn Fn(&str) -> bool| all(is).into_iter().next();
+    // Values that are all alike distinguish nothing.
+    let named = |is: &dyn Fn(&str) -> bool| {
+        let differ = |names: &Vec<&str>| names.iter().any(|name| *name != names[0]);
+        all(is).into_iter().find(differ)
+    };
+    let is_name = |key: &str| key.contains("name");
+    let names = named(&|key| ["name", "signal", "symbol", "channel"].contains(&key));
+    let names = names.or_else(|| named(&is_name)).or_else(|| behind(&is_name))?;
     let units = behind(&|key| key.contains("unit") || key.contains("einheit"));
     let named = names.iter().enumerate().map(|(k, name)| {
         let (name, own) = unit::split(name);
@@ -43,22 +55,32 @@ pub(super) fn described(lines: &[(u64, &str)], dialect: &Dialect, step: Option<f
         (row[0].1.is_empty() || said.is_some_and(fits)).then_some(unit)
     });
     let time = |name: &str| (format!("time of {name}"), unit.clone());
-    Some(named.into_iter().flat_map(|(name, own)| [time(&name), (name, own)]).collect())
+    let mut pairs: Vec<Named> =
+        named.into_iter().flat_map(|(name, own)| [time(&name), (name, own)]).collect();
+    if pairs.len() + 1 == dialect.width {
+        // Behind the delimiter at the end of every row.
+        pairs.push((String::new(), None));
+    }
+    Some(pairs)
 }
 
 /// The keys and values of a line in which one key stands before every value: as many as there are columns in a comment, half as many else.
 fn repeated<'t>(line: &'t str, dialect: &Dialect) -> Option<Vec<(&'t str, &'t str)>> {
     let are_alike =
         |pairs: &[(&str, &str)]| pairs.iter().all(|(key, _)| *key == pairs[0].0 && !key.is_empty());
-    if dialect.delimiter != Delimiter::Blanks && dialect.width.is_multiple_of(2) && !is_comment(line) {
+    if dialect.delimiter != Delimiter::Blanks && dialect.width > 1 && !is_comment(line) {
+        let width = dialect.width - dialect.width % 2;
         let mut cells = Vec::new();
         dialect.delimiter.split(line, &mut cells);
-        if cells.len() + 1 == dialect.width {
+        if cells.len() == width + 1 && cells.last() == Some(&"") {
+            cells.pop();
+        }
+        if cells.len() + 1 == width {
             cells.push("");
         }
         let pairs: Vec<(&str, &str)> = cells.chunks_exact(2).map(|pair| (pair[0], pair[1])).collect();
         let is_word = |key: &str| key.starts_with(char::is_alphabetic);
-        if cells.len() == dialect.width && are_alike(&pairs) && is_word(pairs[0].0) {
+        if cells.len() == width && are_alike(&pairs) && is_word(pairs[0].0) {
             return Some(pairs);
         }
     }
@@ -161,27 +183,36 @@ pub(super) fn are_units(cells: &[&str]) -> bool {
     is_unit_key(key) && units.iter().all(is_unit) && units.iter().any(|cell| unit::bare(cell).is_some())
 }
 
-fn is_unit_key(cell: &str) -> bool {
+pub(super) fn is_unit_key(cell: &str) -> bool {
     let words = ["unit", "einheit", "unité", "unita", "unidad"];
     let key = cell.to_lowercase();
     words.iter().any(|word| key.contains(word)) && !unit::is_known(cell)
 }
 
-/// Key, number and value of a line such as `# NAME0 = Force`.
+/// Key, number and text of a line such as `# NAME0 = Force`.
 fn entry(line: &str) -> Option<(&str, usize, &str)> {
+    keyed_value(line).filter(|(.., value)| value.starts_with(char::is_alphabetic))
+}
+
+/// Key, number and value of a line such as `# RANGE0 = 5`.
+pub(super) fn keyed_value(line: &str) -> Option<(&str, usize, &str)> {
     let bare = line.trim().trim_start_matches(['#', '%', '/', ';', ' ']);
     let (key, value) = bare.split_at(bare.find([':', '=', ';', '\t', ','])?);
     let value = value[1..].trim().trim_matches('"').trim();
     let digits = key.trim_end();
     let word = digits.trim_end_matches(|c: char| c.is_ascii_digit());
     let number = digits[word.len()..].parse().ok()?;
-    let is_text = value.starts_with(char::is_alphabetic);
-    is_text.then_some((word.trim_end(), number, value))
+    Some((word.trim_end(), number, value))
 }
 
 /// Units that stand in lines of their own, behind a key in the first cell (`Vertical Units,V,A`) or the name of a column (`Force kN`), given to the
 /// columns that have none yet.
 pub(super) fn add_units(names: &mut [Named], lines: &[(u64, &str)], dialect: &Dialect) {
+    let listed = unit_lists::counted(lines, names).or_else(|| unit_lists::section(lines, names.len()));
+    for (k, unit) in listed.into_iter().flatten() {
+        let (_, own) = &mut names[k];
+        *own = own.take().or(unit);
+    }
     for (_, line) in lines.iter().rev() {
         let mut cells = Vec::new();
         dialect.delimiter.split(line, &mut cells);

@@ -22,6 +22,7 @@ mod table_error;
 #[cfg(test)]
 mod tests;
 pub mod unit;
+mod unit_lists;
 mod unit_words;
 
 pub use column::Column;

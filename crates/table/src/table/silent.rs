@@ -80,11 +80,19 @@ pub(super) fn is_row(line: &str, dialect: &Dialect) -> bool {
     let is_word = |cell: &&str| cell.starts_with(char::is_alphabetic);
     let are_alike = || cells.iter().all(|cell| *cell == cells[0]);
     let is_drawn = |cell: &&str| cell.len() > 1 && cell.bytes().all(|byte| b"-=:+_*".contains(&byte));
-    if cells.len() > 1 && cells.iter().all(is_drawn) {
+    if cells.len() > 1 && cells.iter().all(is_drawn) || is_setting_of_all(&cells) {
         return true;
     }
     // Of two columns of one name nobody knows better.
     cells.len() > 1 && cells.iter().all(is_word) && (are_alike() || cells.iter().all(|cell| is_type(cell)))
+}
+
+/// Whether a line has one key before one value, which is no name, throughout: `BitMask;0xff;BitMask;0xff`.
+fn is_setting_of_all(cells: &[&str]) -> bool {
+    let [key, value, others @ ..] = cells else { return false };
+    let is_key = key.starts_with(char::is_alphabetic) && !value.starts_with(char::is_alphabetic);
+    let is_same = |pair: &[&str]| pair == [*key, *value];
+    is_key && !others.is_empty() && others.len().is_multiple_of(2) && others.chunks_exact(2).all(is_same)
 }
 
 fn is_type(word: &str) -> bool {

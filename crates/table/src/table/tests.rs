@@ -114,6 +114,37 @@ fn keys_stand_before_names_and_units() {
 }
 
 #[test]
+fn of_keys_and_values_those_behind_a_key_for_names_are_names() {
+    let head = |above: &str, end: &str| {
+        let lines = format!(
+            "{above}\nSampleTime[ms];2;SampleTime[ms];2\nSymbolName;axis.set;SymbolName;axis.act\nPort;851;Port;851\nBitMask;0xff;BitMask;0xff\nUnit;mm;Unit;%"
+        );
+        let lines: String = lines.lines().map(|line| format!("{line}{end}\n")).collect();
+        let rows: String = (0..30).map(|k| format!("{};{k},5;{};{k},25{end}\n", 2 * k, 2 * k)).collect();
+        of(&format!("File;scope\n\n{lines}\n{rows}"))
+    };
+    for end in ["", ";"] {
+        assert_eq!(
+            head("Name;set;Name;act", end),
+            ["time of set [ms]", "set [mm]", "time of act [ms]", "act [%]"]
+        );
+        for above in ["Name;signal;Name;signal", "Comment;;Comment;"] {
+            assert_eq!(head(above, end)[1], "axis.set [mm]", "{above}");
+        }
+    }
+}
+
+#[test]
+fn units_may_stand_one_a_line() {
+    let wanted = ["clock", "stroke [mm]", "load [N]"];
+    let sections = "[header]\nclock\nstroke\nload\n\n[channel units]\nmm\nN\n\n[column names]\nclock stroke load\n\n[data]";
+    assert_eq!(labels(sections, [" ", "."]), wanted);
+    let counted =
+        "# NAME0 = clock\n# NAME1 = stroke\n# NAME2 = load\n#\n# DISP_UNIT1 = mm\n# DISP_UNIT2 = N\n# END";
+    assert_eq!(labels(counted, ["\t", "."]), wanted);
+}
+
+#[test]
 fn quotation_marks_within_names_are_theirs() {
     let wanted = ["t", "\"A1\".set", "\"A1\".act"];
     assert_eq!(labels("t;\"A1\".set;\"A1\".act", SEMICOLONS), wanted);
