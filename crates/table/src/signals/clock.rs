@@ -1,6 +1,7 @@
 //! What the numbers of a time column mean.
 
 use super::input_form::InputForm;
+use super::pace::Pace;
 use super::sampling::rounded;
 use super::spelling::simplified;
 use super::time_of_day;
@@ -24,6 +25,8 @@ pub(super) struct Clock {
     is_time_of_day: bool,
     /// A unit other than seconds that whole numbers without one were taken for.
     guessed: Option<&'static str>,
+    /// A position and its speed that show the unit.
+    seen: Option<[String; 2]>,
 }
 
 /// Numbers of days: since 1899-12-30, as spreadsheets count them, from 1954 to 2119; since the year 0, as MATLAB does, from 1900 to 2190.
@@ -39,7 +42,7 @@ const EPOCHS: [(f64, f64, &str); 3] =
     [(1e17, 1e-9, "nanoseconds"), (1e14, 1e-6, "microseconds"), (1e11, 1e-3, "milliseconds")];
 
 /// Units that a clock of whole numbers may count in.
-const COUNTED: [(f64, &str); 4] = [(1.0, "s"), (1e-3, "ms"), (1e-6, "us"), (1e-9, "ns")];
+pub(super) const COUNTED: [(f64, &str); 4] = [(1.0, "s"), (1e-3, "ms"), (1e-6, "us"), (1e-9, "ns")];
 /// Rates between which a unit is sought for a clock of whole numbers, and their middle: of two units the nearer one is likelier.
 const SOUGHT: [f64; 2] = [0.5, 1e6];
 const MIDDLE: f64 = 100.0;
@@ -62,6 +65,7 @@ impl Clock {
             is_days: false,
             is_time_of_day: false,
             guessed: None,
+            seen: None,
         };
         let by_name = simplified(&column.name).rsplit(' ').next().and_then(unit_named);
         let is_day =
@@ -90,11 +94,29 @@ impl Clock {
         }
     }
 
+    /// Whole numbers without a unit, in the one that speeds beside positions show.
+    pub(super) fn paced(self, raw: &[f64], pace: impl FnOnce() -> Option<Pace>) -> Self {
+        if !self.is_assumed || !are_whole(raw) {
+            return self;
+        }
+        match pace() {
+            Some(Pace { unit, name, seen }) => {
+                let guessed = (unit < 1.0).then_some(name);
+                Self { unit, is_assumed: false, guessed, seen: Some(seen), ..self }
+            }
+            None => self,
+        }
+    }
+
+    /// With a unit that is no assumption: the program's own, or that of a sample time given.
+    pub(super) fn settled(self) -> Self {
+        Self { is_assumed: false, ..self }
+    }
+
     /// Whole numbers in steps of two or more, without a unit, in the one that fits the sample time given, else in one of a likely rate.
     pub(super) fn counting(self, raw: &[f64], sample_time: Option<f64>) -> Self {
         let step = median_step(raw);
-        let is_whole = || raw.iter().all(|stamp| stamp.fract() == 0.0);
-        if !self.is_assumed || !(2.0..1e12).contains(&step) || !is_whole() {
+        if !self.is_assumed || !(2.0..1e12).contains(&step) || !are_whole(raw) {
             return self;
         }
         let rate = |unit: f64| 1.0 / (unit * step);
@@ -126,9 +148,8 @@ impl Clock {
     }
 
     /// What was assumed and may be wrong.
-    pub(super) fn notes(&self, raw: &[f64], sample_time: f64, input_form: &InputForm) -> Vec<String> {
+    pub(super) fn notes(&self) -> Vec<String> {
         let column = &self.column;
-        let is_whole = || raw.iter().all(|stamp| stamp.fract() == 0.0);
         if let Some(unit) = self.epoch {
             return vec![format!("`{column}` is taken as {unit} since 1970")];
         }
@@ -140,23 +161,28 @@ impl Clock {
         if self.is_time_of_day {
             return vec![format!("`{column}` is taken as the time of day, HHMMSS in one number")];
         }
-        if self.is_assumed && sample_time >= 1.0 && is_whole() {
-            return vec![format!(
-                "`{column}` is taken as seconds; write the unit into the header, as in `{column} [ms]`, or give {}",
-                input_form.without_time()
-            )];
-        }
         Vec::new()
     }
 
     /// A unit that was guessed, or a rate that no such machine is sampled at, in words.
-    pub(super) fn doubt(&self, sample_time: f64, input_form: &InputForm) -> Option<String> {
+    pub(super) fn doubt(&self, raw: &[f64], sample_time: f64, input_form: &InputForm) -> Option<String> {
         let [low, high] = LIKELY;
         let rate = 1.0 / sample_time;
         if let Some(unit) = self.guessed {
             let column = &self.column;
+            let why = self.seen.as_ref().map_or_else(String::new, |[place, speed]| {
+                format!(", in which `{place}` changes as `{speed}` says")
+            });
             return Some(format!(
-                "`{column}` has no unit and is taken as {unit}, which makes {} Hz: write the unit into the header, as in `{column} [{unit}]`, or give {}",
+                "`{column}` has no unit and is taken as {unit}{why}, which makes {} Hz: write the unit into the header, as in `{column} [{unit}]`, or give {}",
+                rounded(rate),
+                input_form.without_time()
+            ));
+        }
+        if self.is_assumed && sample_time >= 1.0 && are_whole(raw) {
+            let column = &self.column;
+            return Some(format!(
+                "`{column}` has no unit and is taken as seconds, which makes {} Hz: write the unit into the header, as in `{column} [s]` or `{column} [ms]`, or give {}",
                 rounded(rate),
                 input_form.without_time()
             ));
@@ -180,6 +206,10 @@ fn unit_named(word: &str) -> Option<f64> {
         "nanos" | "nanosec" | "nsec" => Some(1e-9),
         word => unit::seconds(word).filter(|_| word.len() > 1),
     }
+}
+
+fn are_whole(raw: &[f64]) -> bool {
+    raw.iter().all(|stamp| stamp.fract() == 0.0)
 }
 
 /// The usual step of some numbers.

@@ -5,6 +5,7 @@ use super::clock_source::ClockSource;
 use super::counter::Counter;
 use super::instants::{Instants, Written};
 use super::names::{Between, NO_TIME};
+use super::pace::Pace;
 use super::request::Request;
 use super::sampling::{APART, Fault, JITTER, Stamps, nice, resolution};
 use super::select::Selection;
@@ -130,7 +131,11 @@ impl Signals<'_> {
         let raw: Vec<f64> = rows.iter().map(|&row| column.values[row]).collect();
         let declared = self.request.sampling.sample_time;
         let clock = Clock::of(column, &raw, input_form).map_err(|problem| (None, problem))?;
-        let clock = if self.is_own_form(column) { clock } else { clock.counting(&raw, declared) };
+        let clock = match declared {
+            _ if self.is_own_form(column) => clock.settled(),
+            Some(_) => clock.counting(&raw, declared).settled(),
+            None => clock.paced(&raw, || Pace::of(self.table, rows, &raw)).counting(&raw, None),
+        };
         let seconds: Vec<f64> = raw.iter().map(|stamp| clock.seconds(*stamp)).collect();
         let instants = self.instants(rows, (column, &seconds))?;
         let rows: Vec<usize> = instants.kept.iter().map(|&k| rows[k]).collect();
@@ -148,10 +153,10 @@ impl Signals<'_> {
         let even = self.even(self.series(rows.clone()), &stamps, &instants);
         let even = even.map_err(|fault| self.with_other_clock(fault))?;
         let mut notes = instants.notes;
-        notes.extend(clock.notes(&raw, even.sample_time, input_form));
+        notes.extend(clock.notes());
         notes.extend(even.notes);
         let mut doubts = even.doubts;
-        doubts.extend(clock.doubt(even.sample_time, input_form));
+        doubts.extend(clock.doubt(&raw, even.sample_time, input_form));
         Ok(Even { start: if even.start.is_nan() { start } else { even.start }, notes, doubts, ..even })
     }
 

@@ -14,6 +14,7 @@ mod instants;
 mod measured;
 mod names;
 mod offer;
+mod pace;
 mod pairs;
 mod rates;
 mod relations;

@@ -35,7 +35,8 @@ fn a_sample_time_that_was_given_settles_the_unit() {
 fn seconds_stay_seconds() {
     let second = timed(|k| k as f64, None);
     assert_eq!(second.sample_time, 1.0);
-    assert!(second.table.notes.iter().any(|note| note.contains("taken as seconds")));
+    let said = "`timestamp` has no unit and is taken as seconds, which makes 1 Hz";
+    assert!(second.doubts.iter().any(|doubt| doubt.contains(said)), "{:?}", second.doubts);
     assert_eq!(timed(|k| 0.5 * k as f64, None).sample_time, 0.5);
     let machine = Machine::new(1);
     let stamps: Vec<f64> = (0..SAMPLES).map(|k| 10.0 * k as f64).collect();
@@ -74,4 +75,20 @@ fn a_clock_increases_and_durations_are_none() {
     }
     let refused = beside(("travel", &even), ("time", &took)).unwrap_err();
     assert!(refused.contains("`--time travel`, which increases evenly"), "{refused}");
+}
+
+#[test]
+fn speeds_show_the_unit_of_the_clock_of_their_positions() {
+    let machine = Machine::new(1);
+    let count: Vec<f64> = (1..=SAMPLES).map(|k| k as f64).collect();
+    let place = &machine.output;
+    let between = |k: usize| place[(k + 1).min(SAMPLES - 1)] - place[k.saturating_sub(1)];
+    for (unit, said) in [(1e-3, Some("taken as ms, in which `q[1]` changes")), (1.0, None)] {
+        let speed: Vec<f64> = (0..SAMPLES).map(|k| 0.5 * between(k) / unit).collect();
+        let columns: [(&str, &[f64]); 4] =
+            [("time", &count), ("q_d[1]", &machine.input), ("q[1]", place), ("dq[1]", &speed)];
+        let measured = read(&columns, &ColumnNames::default(), None).expect("a good clock");
+        assert_eq!(measured.sample_time, unit);
+        assert_taken(&measured, ["q_d[1]", "q[1]"], said);
+    }
 }
