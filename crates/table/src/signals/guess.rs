@@ -197,6 +197,19 @@ pub(super) fn quantity(column: &Column) -> Quantity {
     }
 }
 
+/// Whether a column is a travel of machines that load specimens, rather than a position of any machine.
+pub(super) fn is_of_testing_machine(column: &Column) -> bool {
+    named(column).iter().any(|word| words::has(words::TEST_TRAVEL, word))
+}
+
+/// Whether a column is a force or torque that was measured: in such a unit, or called so.
+pub(super) fn is_force(column: &Column) -> bool {
+    let own = simplified(last_part(&column.name));
+    let is_called = own.split(' ').any(|word| words::has(words::FORCE, word));
+    let is_meant = if column.unit.is_some() { is_in(column, words::UNITS_OF_FORCE) } else { is_called };
+    is_meant && surety(column, Part::Command).is_none() && !is_deviation(column)
+}
+
 /// Whether a column is in a unit of this list.
 pub(super) fn is_in(column: &Column, units: Words) -> bool {
     column.unit.as_deref().is_some_and(|unit| words::has(units, unit))

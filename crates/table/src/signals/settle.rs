@@ -108,7 +108,11 @@ impl Settlement<'_> {
         }
         let others =
             relations.moving_together().into_iter().filter(|k| *k != input && *k != output).collect();
-        let doubt = if choice.is_pair { None } else { self.of_names(choice, &relations, [input, output]) };
+        let doubt = if choice.is_pair {
+            self.of_test(&relations, input, output)
+        } else {
+            self.of_names(choice, &relations, [input, output])
+        };
         Ok(Settled { others, ..plain(several.or(doubt)) })
     }
 
@@ -156,6 +160,21 @@ impl Settlement<'_> {
         Some(format!(
             "{b} is taken for the output, but {named} {verb} {a} too; if that is meant, {}",
             naming(input, first)
+        ))
+    }
+
+    /// The force that a specimen answers with, where a testing machine's own travel follows its command.
+    fn of_test(&self, relations: &Relations, input: usize, output: usize) -> Option<String> {
+        let offer = self.offer;
+        let is_tested = guess::is_of_testing_machine(offer.column(input)) && self.given == (None, None);
+        let follows = |k: usize| [input, output].into_iter().any(|from| relations.are_connected(from, k));
+        let is_force = |k: &usize| guess::is_force(offer.column(*k)) && follows(*k);
+        let others = offer.signals.iter().copied().filter(|k| *k != input && *k != output);
+        let force = others.filter(|_| is_tested).find(is_force)?;
+        let [a, b, c] = [input, output, force].map(|k| offer.shown(k));
+        let naming = offer.input_form.naming(&[("input", offer.name(output)), ("output", offer.name(force))]);
+        Some(format!(
+            "{b} is taken for the output, as the response to {a}, but {c} follows too; if the specimen is meant, rather than the drive, {naming}"
         ))
     }
 

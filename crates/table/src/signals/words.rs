@@ -84,6 +84,17 @@ pub(super) const OUTPUT: Words = &[
     "сила, усилие, нагрузка, момент",
     "荷重, 力, トルク, 応力, 出力, 载荷, 負荷, 负荷, 负载, 扭矩, 转矩, 应力, 하중, 힘",
 ];
+/// Of the words for motion, those of machines that load specimens.
+pub(super) const TEST_TRAVEL: Words = &[
+    "displacement, disp, stroke, deflection, elongation, strain, crosshead, traverse, extension, indentation, travel",
+    "weg, hub, traversenweg, kolbenweg, dehnung, verformung, deplacement, allongement, desplazamiento, spostamento",
+    "変位, ストローク, 伸び, 位移, 변위",
+];
+/// Forces and torques.
+pub(super) const FORCE: Words = &[
+    "force, load, loadcell, torque, stress, kraft, drehmoment, effort, couple, fuerza, carga, forza, carico, coppia",
+    "荷重, 力, トルク, 応力, 载荷, 負荷, 负荷, 负载, 扭矩, 转矩, 应力, 하중, 힘",
+];
 /// What commands a machine: its output is no response.
 pub(super) const CONTROLLER: Words = &["controller, pid, regler, plc, sps"];
 /// Before the name of a signal, in one word with it: `Sollposition`.

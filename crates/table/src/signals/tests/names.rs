@@ -109,6 +109,22 @@ fn a_position_answers_a_position_though_a_current_is_called_measured() {
 }
 
 #[test]
+fn a_force_beside_the_travel_of_a_testing_machine_is_told() {
+    let machine = Machine::new(1);
+    let mut noise = noise(7);
+    let force: Vec<f64> = machine.output.iter().map(|y| printed(0.2 * y + 0.05 * noise())).collect();
+    let columns = |names: [&'static str; 3]| -> [(&str, &[f64]); 3] {
+        [(names[0], &machine.input), (names[1], &machine.output), (names[2], &force)]
+    };
+    let names = ["Axial Displacement Command [mm]", "Axial Displacement [mm]", "Axial Force [kN]"];
+    let measured = inferred(&columns(names)).expect("names say it");
+    let line = "but `Axial Force [kN]` follows too; if the specimen is meant, rather than the drive, name them, for instance: `switchback init a.csv --input 'Axial Displacement' --output 'Axial Force'`";
+    assert_taken(&measured, ["Axial Displacement Command", "Axial Displacement"], Some(line));
+    let measured = inferred(&columns(["target position", "position", "torque"])).expect("names say it");
+    assert_taken(&measured, ["target position", "position"], None);
+}
+
+#[test]
 fn words_of_other_languages_and_compounds_are_known() {
     for names in [
         ["Traversenweg absolut", "Standardkraft"],
