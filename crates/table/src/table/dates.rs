@@ -47,6 +47,9 @@ const WRITTEN: [&str; 22] = [
 /// Times of day.
 const CLOCKS: [&str; 2] = ["%H:%M:%S%.f", "%I:%M:%S%.f %p"];
 
+/// Of the formats above and of ISO 8601, the last; behind it are lengths of time.
+const LAST: usize = WRITTEN.len() + CLOCKS.len();
+
 /// Reads a cell in the format given, else in any; with the format that it is in.
 pub(super) fn read(cell: &str, usual: Option<Format>) -> Option<(Stamp, Format)> {
     if !has_clock(cell) {
@@ -54,7 +57,7 @@ pub(super) fn read(cell: &str, usual: Option<Format>) -> Option<(Stamp, Format)>
     }
     let in_usual = usual.and_then(|format| Some((in_format(cell, format)?, format)));
     let in_any = || {
-        let all = (0..=WRITTEN.len() + CLOCKS.len()).map(Format);
+        let all = (0..=LAST + 1).map(Format);
         all.filter_map(|format| Some((in_format(cell, format)?, format))).next()
     };
     in_usual.or_else(in_any)
@@ -74,6 +77,9 @@ fn has_clock(cell: &str) -> bool {
 fn in_format(cell: &str, Format(number): Format) -> Option<Stamp> {
     let Some(number) = number.checked_sub(1) else { return iso(cell) };
     let plain = plain(cell);
+    if number == LAST {
+        return in_days(&plain);
+    }
     match WRITTEN.get(number) {
         Some(format) => {
             let local = strtime::parse(format, &plain).ok()?.to_datetime().ok()?;
@@ -99,6 +105,23 @@ fn iso(cell: &str) -> Option<Stamp> {
     }
     let time: Time = cell.parse().ok()?;
     Some(Stamp::Clock(time.duration_since(Time::midnight()).as_nanos()))
+}
+
+/// A length of time, as data frames write it: `0 days 00:00:00.005`, `-1 days +23:59:59.995`, `1 day, 0:00:01`.
+fn in_days(cell: &str) -> Option<Stamp> {
+    const SECOND: i128 = 1_000_000_000;
+    let (days, rest) = cell.split_once(" day")?;
+    let rest = rest.strip_prefix('s').unwrap_or(rest).trim_start();
+    let mut parts = rest.strip_prefix('+').unwrap_or(rest).splitn(3, ':');
+    let mut whole = || parts.next()?.parse::<u8>().ok().map(i128::from);
+    let (hours, minutes) = (whole()?, whole()?);
+    let (seconds, fraction) = parts.next().map(|seconds| seconds.split_once('.').unwrap_or((seconds, "")))?;
+    let is_number = fraction.len() <= 9 && fraction.bytes().all(|byte| byte.is_ascii_digit());
+    let nanoseconds: i128 = format!("{fraction:0<9}").parse().ok().filter(|_| is_number)?;
+    let seconds = seconds.parse::<u8>().ok().map(i128::from)?;
+    let days = i128::from(days.parse::<i32>().ok()?);
+    let whole = ((24 * days + hours) * 60 + minutes) * 60 + seconds;
+    Some(Stamp::Instant(whole * SECOND + nanoseconds))
 }
 
 fn instant(local: DateTime) -> Option<Stamp> {
@@ -148,6 +171,12 @@ mod tests {
             let wanted = Stamp::Clock(69_238_005_000_000);
             assert_eq!(read(cell, None).map(|(stamp, _)| stamp), Some(wanted), "{cell}");
         }
+        for cell in ["2 days 01:00:00.005000", "2 days, 1:00:00.005", "2 days 01:00:00.005000000"] {
+            let wanted = Stamp::Instant(176_400_005_000_000);
+            assert_eq!(read(cell, None).map(|(stamp, _)| stamp), Some(wanted), "{cell}");
+        }
+        let before = read("-1 days +23:59:59.995000", None).map(|(stamp, _)| stamp);
+        assert_eq!(before, Some(Stamp::Instant(-5_000_000)));
         assert_eq!(read("ratio 3:4", None), None);
     }
 }

@@ -73,7 +73,9 @@ impl Table {
                 Kind::Stamp => ", times",
                 Kind::Text => ", text",
             };
-            if self.has_header {
+            if self.has_header && column.name.is_empty() {
+                format!("{} without a name{kind}", k + 1)
+            } else if self.has_header {
                 format!("{} `{}`{kind}", k + 1, column.label())
             } else {
                 (k + 1).to_string()

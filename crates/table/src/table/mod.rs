@@ -214,13 +214,14 @@ impl Table {
         Ok(())
     }
 
-    /// Leaves out a last column without name and values: a delimiter at the end of every row makes none. None where a nameless one has values.
+    /// Leaves out columns without name and cells: a delimiter at the end of every row makes none. None where a nameless last one has values.
     fn without_blank_end(mut self) -> Option<Self> {
-        let is_blank = |column: &Column| column.name.is_empty() && column.values.iter().all(|x| x.is_nan());
-        if self.columns.last().is_some_and(|last| last.name.is_empty() && !is_blank(last)) {
+        let has_none = |column: &Column| column.values.iter().all(|x| x.is_nan());
+        if self.columns.last().is_some_and(|last| last.name.is_empty() && !has_none(last)) {
             return None;
         }
-        self.columns.retain(|column| !is_blank(column));
+        let is_text = |column: &Column| column.kind == Kind::Text || column.fault_count > 0;
+        self.columns.retain(|column| !column.name.is_empty() || !has_none(column) || is_text(column));
         Some(self)
     }
 }

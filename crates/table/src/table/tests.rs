@@ -78,6 +78,13 @@ fn lines_that_say_nothing_lie_between_names_and_rows() {
 fn a_column_may_have_no_name() {
     let rows: String = (0..30).map(|k| format!("{k},{k}.5\n")).collect();
     assert_eq!(of(&format!(",load [N]\n{rows}")), ["", "load [N]"]);
+    let listing = |stamp: fn(i32) -> String| {
+        let rows: String = (0..30).map(|k| format!("{},{k}.5,{k}.25\n", stamp(k))).collect();
+        read(&format!(",set,act\n{rows}")).unwrap().listing()
+    };
+    let since = |k: i32| format!("0 days 00:00:{:02}.005000", k);
+    assert_eq!(listing(since), "1 without a name, times, 2 `set`, 3 `act`");
+    assert_eq!(listing(|k| format!("row{k}")), "1 without a name, text, 2 `set`, 3 `act`");
 }
 
 #[test]
