@@ -99,6 +99,7 @@ impl Selection {
         let rival = |k: &usize| {
             Some(*k) != output
                 && *k != input
+                && !guess::stands_still(column(k))
                 && (others.contains(k)
                     || [Part::Input, Part::Motion, Part::Output, Part::Command]
                         .into_iter()

@@ -3,6 +3,19 @@
 use super::*;
 
 #[test]
+fn what_stands_still_is_no_other_choice() {
+    let (machine, still) = (Machine::new(1), vec![0.0; SAMPLES]);
+    let columns: [(&str, &[f64]); 4] = [
+        ("joint 1 cmd", &machine.input),
+        ("joint 1 pos", &machine.output),
+        ("joint 2 cmd", &still),
+        ("joint 2 pos", &still),
+    ];
+    let measured = inferred(&columns).expect("names say it");
+    assert_eq!(measured.selection.rivals, Vec::<usize>::new());
+}
+
+#[test]
 fn bystanders_do_not_hide_the_two_that_belong_together() {
     let machine = Machine::new(1);
     let (warm, fed, third) = (bystander(31.0, 5), bystander(24.0, 6), bystander(7.0, 7));
