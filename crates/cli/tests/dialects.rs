@@ -104,7 +104,9 @@ fn no_header_at_all() {
 fn latin_letters_and_milliseconds() {
     let header = b"Zeit [ms];Weg [\xb5m];Kraft [N];Winkel [\xb0]\n".to_vec();
     let body: String = rows()
-        .map(|(t, v, y)| format!("{};{};{};0,5\n", comma((1000.0 * t).round()), comma(v), comma(y)))
+        .map(|(t, v, y)| {
+            format!("{};{};{};{}\n", comma((1000.0 * t).round()), comma(v), comma(y), comma((3.0 * t).sin()))
+        })
         .collect();
     let loaded = reads([header, body.into_bytes()].concat(), &[], ["Weg [µm]", "Kraft [N]"]);
     assert!(loaded.reported.notes[0].contains("Windows-1252"), "{}", loaded.reported);

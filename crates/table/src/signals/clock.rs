@@ -1,7 +1,7 @@
 //! What the numbers of a time column mean.
 
 use super::input_form::InputForm;
-use super::pace::Pace;
+use super::pace::{COUNTED, Pace};
 use super::sampling::rounded;
 use super::spelling::simplified;
 use super::time_of_day;
@@ -41,8 +41,6 @@ const LIKELY: [f64; 2] = [1.0 / 3600.0, 1e6];
 const EPOCHS: [(f64, f64, &str); 3] =
     [(1e17, 1e-9, "nanoseconds"), (1e14, 1e-6, "microseconds"), (1e11, 1e-3, "milliseconds")];
 
-/// Units that a clock of whole numbers may count in.
-pub(super) const COUNTED: [(f64, &str); 4] = [(1.0, "s"), (1e-3, "ms"), (1e-6, "us"), (1e-9, "ns")];
 /// Rates between which a unit is sought for a clock of whole numbers, and their middle: of two units the nearer one is likelier.
 const SOUGHT: [f64; 2] = [0.5, 1e6];
 const MIDDLE: f64 = 100.0;

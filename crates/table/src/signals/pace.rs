@@ -1,9 +1,12 @@
 //! The unit of a clock without one, by speeds that were logged beside positions.
 
+use super::guess;
 use super::spelling::simplified;
 use super::words::{self, Words};
-use super::{clock::COUNTED, guess};
 use crate::table::{Column, Table};
+
+/// Units that a clock of whole numbers may count in.
+pub(super) const COUNTED: [(f64, &str); 4] = [(1.0, "s"), (1e-3, "ms"), (1e-6, "us"), (1e-9, "ns")];
 
 /// A unit in which the rate of change of a position is the speed beside it.
 #[derive(Debug, Clone, PartialEq)]

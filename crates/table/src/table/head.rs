@@ -4,7 +4,7 @@ use super::dialect::Dialect;
 use super::error::{DataProblem, Place};
 use super::keyed::{self, Named};
 use super::lines::{self, Delimiter, is_comment, is_idle, numbered};
-use super::{preamble, silent, unit};
+use super::{preamble, silent, unit, unit_lists};
 
 /// What stands above the rows.
 #[derive(Debug, Default)]
@@ -62,6 +62,7 @@ impl Head {
         let step = step(text, first_row, dialect);
         let head = Self { first_row, increment, step, ..Self::default() };
         let mut head = Self::above_rows((text, &all), dialect, head)?;
+        unit_lists::add_units(&mut head.names, &all);
         keyed::add_units(&mut head.names, &all, dialect);
         Ok(head)
     }

@@ -2,7 +2,7 @@
 
 use super::dialect::Dialect;
 use super::lines::{Delimiter, is_comment};
-use super::{silent, unit, unit_lists};
+use super::{silent, unit};
 use std::collections::HashSet;
 
 /// A name and its unit.
@@ -208,11 +208,6 @@ pub(super) fn keyed_value(line: &str) -> Option<(&str, usize, &str)> {
 /// Units that stand in lines of their own, behind a key in the first cell (`Vertical Units,V,A`) or the name of a column (`Force kN`), given to the
 /// columns that have none yet.
 pub(super) fn add_units(names: &mut [Named], lines: &[(u64, &str)], dialect: &Dialect) {
-    let listed = unit_lists::counted(lines, names).or_else(|| unit_lists::section(lines, names.len()));
-    for (k, unit) in listed.into_iter().flatten() {
-        let (_, own) = &mut names[k];
-        *own = own.take().or(unit);
-    }
     for (_, line) in lines.iter().rev() {
         let mut cells = Vec::new();
         dialect.delimiter.split(line, &mut cells);

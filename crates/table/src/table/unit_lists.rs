@@ -6,8 +6,16 @@ use super::unit;
 /// Positions of columns, and their units.
 type Units = Vec<(usize, Option<String>)>;
 
+/// Given to the columns that have none yet.
+pub(super) fn add_units(names: &mut [Named], lines: &[(u64, &str)]) {
+    for (k, unit) in counted(lines, names).or_else(|| section(lines, names.len())).into_iter().flatten() {
+        let (_, own) = &mut names[k];
+        *own = own.take().or(unit);
+    }
+}
+
 /// Units with the numbers of names: `DISP_UNIT0 = mm`. They count on from where the lines of names do, else from the first column on.
-pub(super) fn counted(lines: &[(u64, &str)], names: &[Named]) -> Option<Units> {
+fn counted(lines: &[(u64, &str)], names: &[Named]) -> Option<Units> {
     let entries: Vec<(&str, usize, &str)> = lines.iter().filter_map(|(_, line)| keyed_value(line)).collect();
     let named =
         |(_, _, value): &&(&str, usize, &str)| names.iter().any(|(name, _)| unit::split(value).0 == *name);
@@ -28,7 +36,7 @@ pub(super) fn counted(lines: &[(u64, &str)], names: &[Named]) -> Option<Units> {
 
 /// Units one a line in a section called so, of the last columns where they are fewer: instruments list those of added channels only. A blank line
 /// between two of them stands for a channel without one.
-pub(super) fn section(lines: &[(u64, &str)], width: usize) -> Option<Units> {
+fn section(lines: &[(u64, &str)], width: usize) -> Option<Units> {
     let framed = |line: &str| line.trim().strip_prefix('[')?.strip_suffix(']').map(str::to_lowercase);
     let is_head = |(_, line): &(u64, &str)| {
         framed(line)
