@@ -202,7 +202,7 @@ fn candidates<'t>(lines: &[(u64, &'t str)], dialect: &Dialect) -> Vec<Candidate<
     let mut found: Vec<Candidate<'t>> = Vec::new();
     // The line below the next one that could name the columns.
     let mut next = None;
-    for (line, text) in lines.iter().rev() {
+    for (k, (line, text)) in lines.iter().enumerate().rev() {
         let are_units = found.last().is_none_or(|below| unit::are_mostly_units(&below.cells));
         let is_adjacent = next.is_none_or(|next| next == line + 1 || is_comment(text) || are_units);
         if found.len() == MOST || !is_adjacent {
@@ -214,7 +214,12 @@ fn candidates<'t>(lines: &[(u64, &'t str)], dialect: &Dialect) -> Vec<Candidate<
             continue;
         }
         let Some(cells) = header_cells(text, dialect) else { break };
-        if keyed::are_units(&cells) || silent::is_setting(&cells) {
+        let has_names_above = || {
+            let above = k.checked_sub(1).and_then(|k| header_cells(lines[k].1, dialect));
+            above.is_some_and(|above| dialect.is_wordy(&above) || silent::is_keyed(&above))
+        };
+        let is_keyed = || found.is_empty() && silent::is_keyed(&cells) && has_names_above();
+        if keyed::are_units(&cells) || silent::is_setting(&cells) || is_keyed() {
             continue;
         }
         // Preambles have numbers where headers have names; numbers above units are names of channels.
@@ -318,7 +323,8 @@ fn above<'t>(text: &'t str, dialect: &Dialect) -> Above<'t> {
         let is_headed = || further.iter().any(|(_, text)| misfit(text, dialect) == Some(cells.len()));
         let is_row = cells.len() == dialect.width || cells.len() > dialect.width && is_headed();
         let is_faulty_row = !is_idle(line) && is_row && !dialect.is_wordy(&cells);
-        if !is_faulty_row || unit::are_units(&cells) || silent::is_setting(&cells) {
+        let is_above_blank = number + 1 < first_row && silent::is_keyed(&cells);
+        if !is_faulty_row || is_above_blank || unit::are_units(&cells) || silent::is_setting(&cells) {
             break;
         }
         first_row = number;

@@ -65,11 +65,26 @@ const SETTINGS: [&str; 24] = [
     "serial",
 ];
 
-/// Whether cells are settings of the channels behind a word for them: `Range,500,10`.
+/// Whether cells are settings of the channels behind a word for them: `Range,500,10`, or before each of them `Port,501,Port,502`.
 pub(super) fn is_setting(cells: &[&str]) -> bool {
     let is_number = |cell: &&str| cell.is_empty() || cell.replace(',', ".").parse::<f64>().is_ok();
     let [key, values @ ..] = cells else { return false };
+    let is_pair = |pair: &[&str]| pair[0] == *key && is_number(&pair[1]);
+    let is_word = key.starts_with(char::is_alphabetic) && !is_number(key);
+    if is_word && cells.len() > 2 && cells.len().is_multiple_of(2) && cells.chunks_exact(2).all(is_pair) {
+        return true;
+    }
     !values.is_empty() && values.iter().all(is_number) && SETTINGS.contains(&key.to_lowercase().as_str())
+}
+
+/// Whether cells are a word and numbers behind it, as `Gain,2,3`: a setting, unless they are names.
+pub(super) fn is_keyed(cells: &[&str]) -> bool {
+    let is_number = |cell: &&str| cell.replace(',', ".").parse::<f64>().is_ok();
+    let [key, values @ ..] = cells else { return false };
+    key.starts_with(char::is_alphabetic)
+        && !is_number(key)
+        && values.len() > 1
+        && values.iter().all(is_number)
 }
 
 /// Whether all cells of a line are the same (`Rohdaten;Rohdaten;Rohdaten`), types of data, or a drawn line.

@@ -216,3 +216,19 @@ fn a_text_without_a_table_shows_its_first_line() {
     let error = read("Dear reader,\nsee page 12 of it.\n").unwrap_err();
     assert!(error.ends_with("; line 2 is `see page 12 of it.`"), "{error}");
 }
+
+#[test]
+fn settings_of_the_channels_above_the_rows_are_no_rows() {
+    let rows: String = (0..30).map(|k| format!("{},{k}.5,{},{k}.25\n", 2 * k, 2 * k)).collect();
+    let pairs = "Name,a,Name,b\nPort,501,Port,501\nOffset,0,Offset,1\nScaleFactor,1,ScaleFactor,1\n\n";
+    let rows_of = |text: &str| read(text).map(|table| table.places.len());
+    assert_eq!(rows_of(&format!("{pairs}{rows}")), Ok(30));
+    let keyed = format!("t,a,u,b\nPort,501,502,503\nSlot,1,2,3\n\n{rows}");
+    assert_eq!(rows_of(&keyed), Ok(30));
+    assert_eq!(of(&keyed), ["t", "a", "u", "b"]);
+    // A first row with an odd cell is a row.
+    let odd = format!("t,a,u,b\n0,ERR,0,1\n{rows}");
+    assert_eq!(rows_of(&odd), Ok(31));
+    let odd = format!("t,a,u,b\n{rows}60,ERR,60,1\n{rows}");
+    assert_eq!(rows_of(&odd), Ok(61));
+}
