@@ -85,6 +85,10 @@ impl Clock {
             }),
             None if by_name.is_some() => Ok(clock(by_name.unwrap_or(1.0))),
             None => Ok(match EPOCHS.into_iter().find(|(least, ..)| size >= *least) {
+                // Counted since a start rather than since 1970.
+                Some((_, unit, _)) if is_counted(unit, size, median_step(raw)) => {
+                    Self { origin: first, is_assumed: true, ..clock(1.0) }
+                }
                 Some((_, unit, name)) => Self { origin: first, epoch: Some(name), ..clock(unit) },
                 None if is_day => Self { origin: first, is_days: true, ..clock(86_400.0) },
                 None => Self { is_assumed: true, ..clock(1.0) },
@@ -204,6 +208,20 @@ fn unit_named(word: &str) -> Option<f64> {
         "nanos" | "nanosec" | "nsec" => Some(1e-9),
         word => unit::seconds(word).filter(|_| word.len() > 1),
     }
+}
+
+/// Whether numbers as large as instants since 1970 in some unit are none: they would be of no year in which logs were written, at no likely rate,
+/// or of any year at a rate that is doubted, while another unit makes a likely rate.
+fn is_counted(unit: f64, size: f64, step: f64) -> bool {
+    /// Seconds from 1970 to 1990 and to 2060.
+    const LOGGED: [f64; 2] = [6.3e8, 2.84e9];
+    let is_within = |[low, high]: [f64; 2], x: f64| (low..=high).contains(&x);
+    let rate = |unit: f64| 1.0 / (unit * step);
+    let is_likely = match is_within(LOGGED, unit * size) {
+        true => is_within(LIKELY, rate(unit)),
+        false => is_within(SOUGHT, rate(unit)),
+    };
+    !is_likely && COUNTED.into_iter().any(|(other, _)| other < unit && is_within(SOUGHT, rate(other)))
 }
 
 fn are_whole(raw: &[f64]) -> bool {

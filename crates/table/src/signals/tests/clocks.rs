@@ -23,6 +23,23 @@ fn whole_numbers_count_in_the_unit_of_a_likely_rate_and_that_is_doubted() {
 }
 
 #[test]
+fn large_whole_numbers_that_are_no_date_count_in_the_unit_of_a_likely_rate() {
+    for (start, step, unit, seconds) in
+        [(5.123_456_789e12, 1e7, "ns", 0.01), (5.0e11, 1e7, "ns", 0.01), (1.2e11, 5e3, "us", 0.005)]
+    {
+        let measured = timed(|k| start + step * k as f64, None);
+        assert!((measured.sample_time / seconds - 1.0).abs() < 1e-9, "{step}: {}", measured.sample_time);
+        let said = format!("`timestamp` has no unit and is taken as {unit}");
+        assert!(measured.doubts.iter().any(|doubt| doubt.contains(&said)), "{:?}", measured.doubts);
+    }
+    for (step, seconds) in [(10.0, 0.01), (10_000.0, 10.0)] {
+        let dated = timed(|k| 1.683_195_121e12 + step * k as f64, None);
+        assert!((dated.sample_time / seconds - 1.0).abs() < 1e-9, "{step}: {}", dated.sample_time);
+        assert!(dated.table.notes.iter().any(|note| note.contains("milliseconds since 1970")));
+    }
+}
+
+#[test]
 fn a_sample_time_that_was_given_settles_the_unit() {
     for (step, seconds) in [(2500, 0.0025), (10, 10.0), (10, 0.01), (500, 0.5)] {
         let measured = timed(|k| f64::from(step * k as i32), Some(seconds));
