@@ -19,7 +19,7 @@ pub(super) enum Stamp {
 pub(super) struct Format(usize);
 
 /// Dates with times, in the order in which they are tried: days of the month beyond 12 distinguish German and American ones.
-const WRITTEN: [&str; 22] = [
+const WRITTEN: [&str; 36] = [
     "%d.%m.%Y %H:%M:%S%.f",
     "%m/%d/%Y %I:%M:%S%.f %p",
     "%d/%m/%Y %I:%M:%S%.f %p",
@@ -42,6 +42,20 @@ const WRITTEN: [&str; 22] = [
     "%m/%d/%Y %H:%M",
     "%d/%m/%Y %H:%M",
     "%Y/%m/%d %H:%M",
+    "%d-%b-%y %H:%M:%S%.f",
+    "%d-%b-%y %I:%M:%S%.f %p",
+    "%d-%b-%Y %I:%M:%S%.f %p",
+    "%d %b %y %H:%M:%S%.f",
+    "%d %b %Y %I:%M:%S%.f %p",
+    "%d %B %Y %H:%M:%S%.f",
+    "%d %B %Y %I:%M:%S%.f %p",
+    "%B %d %Y %H:%M:%S%.f",
+    "%B %d %Y %I:%M:%S%.f %p",
+    "%a %b %d %H:%M:%S%.f %Y",
+    "%a %d %b %Y %H:%M:%S%.f",
+    "%A %B %d %Y %I:%M:%S%.f %p",
+    "%d-%b-%y %H:%M",
+    "%d-%b-%Y %H:%M",
 ];
 
 /// Times of day.
@@ -68,7 +82,7 @@ fn has_clock(cell: &str) -> bool {
     let bytes = cell.as_bytes();
     let is_digit = |at: usize| bytes.get(at).is_some_and(u8::is_ascii_digit);
     let is_sign =
-        |byte: &u8| byte.is_ascii_alphanumeric() || b" :.,-/+[]_".contains(byte) || !byte.is_ascii();
+        |byte: &u8| byte.is_ascii_alphanumeric() || b" :.,;-/+[]_".contains(byte) || !byte.is_ascii();
     let clock = bytes.iter().position(|byte| *byte == b':');
     clock.is_some_and(|colon| colon > 0 && is_digit(colon - 1) && is_digit(colon + 1))
         && bytes.iter().all(is_sign)
@@ -136,12 +150,12 @@ fn instant(local: DateTime) -> Option<Stamp> {
 /// Points before fractions of a second, whatever was written there, and single blanks elsewhere.
 fn plain(cell: &str) -> String {
     let mut plain = cell.replace(", ", " ");
-    // 19:13:58,005 and 19:13:58:005.
+    // 19:13:58,005, 19:13:58;005 and 19:13:58:005.
     let colons: Vec<usize> = plain.match_indices(':').map(|(at, _)| at).collect();
     if let [_, _, third] = colons[..] {
         plain.replace_range(third..=third, ".");
     }
-    plain.replace(',', ".").split_whitespace().collect::<Vec<_>>().join(" ")
+    plain.replace([',', ';'], ".").split_whitespace().collect::<Vec<_>>().join(" ")
 }
 
 #[cfg(test)]
@@ -164,10 +178,24 @@ mod tests {
             "2026/11/14 19:13:58:005",
             "14-Nov-2026 19:13:58.005",
             "Nov 14 2026 19:13:58.005",
+            "14-Nov-26 19:13:58.005",
+            "14-NOV-26 07:13:58.005 PM",
+            "14-nov-2026 7:13:58.005 PM",
+            "14 Nov 2026 19:13:58.005",
+            "14 November 2026 7:13:58.005 PM",
+            "November 14, 2026 19:13:58.005",
+            "Nov 14, 2026 07:13:58.005 PM",
+            "Sat Nov 14 19:13:58.005 2026",
+            "Sat, 14 Nov 2026 19:13:58.005",
+            "Saturday, November 14, 2026 7:13:58.005 PM",
         ] {
             assert_eq!(read(cell, None).map(|(stamp, _)| stamp), Some(wanted), "{cell}");
         }
-        for cell in ["19:13:58.005", "19:13:58,005", "19:13:58:005", "07:13:58.005 PM"] {
+        for cell in ["4 May 2023 10:12:01", "May 4, 2023 10:12:01 AM", "Thu May  4 10:12:01 2023"] {
+            let wanted = Stamp::Instant(1_683_195_121_000_000_000);
+            assert_eq!(read(cell, None).map(|(stamp, _)| stamp), Some(wanted), "{cell}");
+        }
+        for cell in ["19:13:58.005", "19:13:58;005", "19:13:58,005", "19:13:58:005", "07:13:58.005 PM"] {
             let wanted = Stamp::Clock(69_238_005_000_000);
             assert_eq!(read(cell, None).map(|(stamp, _)| stamp), Some(wanted), "{cell}");
         }
