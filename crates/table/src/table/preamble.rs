@@ -29,14 +29,14 @@ const RATES: [&str; 7] =
 /// The sample time in the lines above a table, the nearest to it first.
 pub(super) fn increment(lines: &[(u64, &str)]) -> Option<f64> {
     lines.iter().rev().find_map(|(_, line)| {
-        let bare = line.trim_start_matches(['#', '%', '/', ';', ' ', '\t']);
+        let bare = line.trim_start_matches(['#', '%', '/', ';', ' ', '\t', '"']);
         let sign = bare.find([':', '=', ',', ';', '\t'])?;
         let (key, rest) =
-            (&bare[..sign], bare[sign + 1..].trim_start_matches([':', '=', ',', ';', '\t', ' ']));
+            (&bare[..sign], bare[sign + 1..].trim_start_matches([':', '=', ',', ';', '\t', ' ', '"']));
         // A comma is decimal where another sign separates.
         let signs: &[char] = if bare[sign..].starts_with(',') { &[',', ';', '\t'] } else { &[';', '\t'] };
         let mut cells = rest.split(signs);
-        let value = cells.next()?.trim();
+        let value = cells.next()?.trim().trim_end_matches('"');
         let unit = cells.next().map(str::trim).filter(|unit| unit::is_known(unit)).unwrap_or_default();
         entry(key, &format!("{value} {unit}"))
     })
@@ -56,7 +56,11 @@ pub(super) fn entry(key: &str, value: &str) -> Option<f64> {
         None if is_time => number,
         None => 1.0 / number,
         Some(unit) if is_time => number * unit::seconds(unit)?,
-        Some(unit) => 1.0 / (number * hertz(unit)?),
+        // A period under the name of a rate: `Sample Rate: 10 Milliseconds`.
+        Some(unit) => match hertz(unit) {
+            Some(hertz) => 1.0 / (number * hertz),
+            None => number * unit::seconds(unit)?,
+        },
     };
     (seconds.is_finite() && seconds > 0.0).then_some(seconds)
 }
@@ -99,6 +103,9 @@ mod tests {
             "Delta_X\t0,005000\t0,005000\t",
             "Sample Interval,5.0e-03,s",
             "Abtastzeit [ms];5",
+            "\"Sample Rate:\",\"5 Milliseconds\"",
+            "Sample Rate: 5 ms",
+            "Sample Period: 5 ms",
         ] {
             let found = increment(&[(1, line)]).unwrap_or_else(|| panic!("{line}"));
             assert!((found - 0.005).abs() < 1e-12, "{line}: {found}");
