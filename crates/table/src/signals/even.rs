@@ -360,7 +360,7 @@ impl Signals<'_> {
             return DataProblem::NeverMoves { column: input.label() };
         }
         let is_left_out = names.time.as_deref().is_some_and(|name| name.eq_ignore_ascii_case(NO_TIME));
-        let unread = || self.table.columns.iter().find_map(guess::unread_time);
+        let unread = || guess::unread_time(&self.table.columns);
         if let (false, Some((column, cell))) = (is_left_out, unread()) {
             let reason = format!("the times of `{column}`, as `{cell}`, cannot be read");
             return DataProblem::NoSampleTime { reason, remedy: input_form.no_times() };

@@ -55,11 +55,14 @@ pub(super) fn surety(column: &Column, part: Part) -> Option<Surety> {
     name.split(' ').any(|word| word.len() > 2 && words::has(words, word)).then_some(Surety::Word)
 }
 
-/// A column that is called a time, and its first cell, where its cells are none.
-pub(super) fn unread_time(column: &Column) -> Option<(String, &str)> {
-    let is_text = column.kind == Kind::Text && surety(column, Part::Time).is_some();
-    let first = column.faults.first().filter(|_| is_text)?;
-    Some((column.label(), &first.cell))
+/// A column that is called a time, and its first cell, where its cells are none. Of a date and a time of day it is the one that changes more
+/// often, and a date that stands still is none.
+pub(super) fn unread_time(columns: &[Column]) -> Option<(String, &str)> {
+    let is_text = |column: &&Column| {
+        column.kind == Kind::Text && column.words.len() > 1 && surety(column, Part::Time).is_some()
+    };
+    let unread = columns.iter().filter(is_text).min_by_key(|column| std::cmp::Reverse(column.words.len()))?;
+    Some((unread.label(), &unread.faults.first()?.cell))
 }
 
 /// Whether a column only counts the samples, perhaps anew from some on.

@@ -1,6 +1,7 @@
 //! Clocks of numbers without a unit.
 
 use super::*;
+use crate::table::TableError;
 
 fn timed(time: impl Fn(usize) -> f64, sample_time: Option<f64>) -> Measured {
     let machine = Machine::new(1);
@@ -37,6 +38,41 @@ fn large_whole_numbers_that_are_no_date_count_in_the_unit_of_a_likely_rate() {
         assert!((dated.sample_time / seconds - 1.0).abs() < 1e-9, "{step}: {}", dated.sample_time);
         assert!(dated.table.notes.iter().any(|note| note.contains("milliseconds since 1970")));
     }
+}
+
+/// What is inferred of a machine whose rows stand behind a date and a time of day.
+fn dated(head: &str, time: impl Fn(usize) -> String) -> Result<Measured, String> {
+    let Machine { input, output } = Machine::new(1);
+    let row = |k: usize| format!("\"Data\",\"5/4/2023\",\"{}\",{},{}\n", time(k), input[k], output[k]);
+    let rows: String = (0..SAMPLES).map(row).collect();
+    let text = format!("{head}\"Header:\",\"Date\",\"Time\",\"command\",\"feedback\"\n{rows}");
+    let table = Table::parse(&text, 2).map_err(|_| "no table".to_owned())?;
+    let input_form = InputForm::CommandLine("switchback init log.csv".to_owned());
+    let names = ColumnNames::default();
+    let request =
+        Request { names: &names, sampling: Sampling::default(), input_form: &input_form, needs_output: true };
+    Measured::of(table, request).map_err(|problems| match &problems[0] {
+        TableError::Data(error) => error.to_string(),
+        TableError::File(error) => error.to_string(),
+    })
+}
+
+#[test]
+fn a_date_beside_the_time_of_day_belongs_to_the_clock() {
+    let written = |k: usize| {
+        let ms = 10 * k;
+        format!("10:12:{:02};{:03}", ms / 1000, ms % 1000)
+    };
+    let measured = dated("", written).expect("a clock");
+    let time = measured.selection.time.map(|k| measured.table.columns[k].name.clone());
+    assert_eq!((measured.sample_time, time.as_deref()), (0.01, Some("Time")));
+    let unread = |k: usize| format!("10h12 {k}");
+    let problem = dated("", unread).expect_err("no clock");
+    assert!(problem.contains("the times of `Time`, as `10h12 0`, cannot be read"), "{problem}");
+    let stated = dated("\"Sample Rate:\",\"10 Milliseconds\"\n", unread).expect("a sample time");
+    assert_eq!(stated.sample_time, 0.01);
+    let still = dated("", |_| "noon".to_owned()).expect_err("no clock");
+    assert!(!still.contains("cannot be read"), "{still}");
 }
 
 #[test]
