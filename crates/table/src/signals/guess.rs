@@ -105,6 +105,11 @@ pub(super) fn stands_still(column: &Column) -> bool {
     first.is_some_and(|first| finite.all(|value| value == first))
 }
 
+/// At how many rows a column differs from the one before.
+pub(super) fn changes(column: &Column) -> usize {
+    column.values.windows(2).filter(|pair| pair[0] != pair[1]).count()
+}
+
 /// Whether a column can be a clock: it goes on somewhere.
 pub(super) fn goes_on(column: &Column) -> bool {
     let several = column.values.iter().filter(|value| value.is_finite()).count() > 1;

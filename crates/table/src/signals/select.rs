@@ -171,9 +171,19 @@ fn shared(table: &Table, parts: [(&'static str, Option<usize>); 3]) -> Vec<DataP
 /// The time column: the one that is called so and increases, else the one with time stamps, else the only one that rises evenly.
 fn clock(table: &Table, free: &impl Fn(&usize) -> bool) -> Option<usize> {
     let columns = || (0..table.columns.len()).filter(free).filter(|&k| table.columns[k].kind != Kind::Text);
+    // A number that changes at midnight, beside the time of day.
+    let stamped = columns()
+        .map(|k| &table.columns[k])
+        .find(|column| column.kind == Kind::Stamp && guess::goes_on(column));
+    let is_date = |column: &Column| {
+        let changes = guess::changes(column);
+        column.kind == Kind::Number
+            && 20 * changes < column.values.len()
+            && stamped.is_some_and(|stamped| guess::changes(stamped) > changes)
+    };
     let can_be = |column: &Column| {
         let is_ruled_out = || guess::is_duration(column) && !guess::is_ramp(column);
-        guess::goes_on(column) && !guess::is_index(column) && !is_ruled_out()
+        guess::goes_on(column) && !guess::is_index(column) && !is_ruled_out() && !is_date(column)
     };
     let called = columns().filter(|&k| can_be(&table.columns[k])).filter_map(|k| {
         let column = &table.columns[k];

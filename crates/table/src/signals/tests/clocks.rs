@@ -41,9 +41,16 @@ fn large_whole_numbers_that_are_no_date_count_in_the_unit_of_a_likely_rate() {
 }
 
 /// What is inferred of a machine whose rows stand behind a date and a time of day.
-fn dated(head: &str, time: impl Fn(usize) -> String) -> Result<Measured, String> {
+fn dated(
+    head: &str,
+    date: impl Fn(usize) -> String,
+    time: impl Fn(usize) -> String,
+) -> Result<Measured, String> {
     let Machine { input, output } = Machine::new(1);
-    let row = |k: usize| format!("\"Data\",\"5/4/2023\",\"{}\",{},{}\n", time(k), input[k], output[k]);
+    let row = |k: usize| {
+        let (date, time) = (date(k), time(k));
+        format!("\"Data\",\"{date}\",\"{time}\",{},{}\n", input[k], output[k])
+    };
     let rows: String = (0..SAMPLES).map(row).collect();
     let text = format!("{head}\"Header:\",\"Date\",\"Time\",\"command\",\"feedback\"\n{rows}");
     let table = Table::parse(&text, 2).map_err(|_| "no table".to_owned())?;
@@ -63,15 +70,19 @@ fn a_date_beside_the_time_of_day_belongs_to_the_clock() {
         let ms = 10 * k;
         format!("10:12:{:02};{:03}", ms / 1000, ms % 1000)
     };
-    let measured = dated("", written).expect("a clock");
+    let today = |_: usize| "5/4/2023".to_owned();
+    let measured = dated("", today, written).expect("a clock");
     let time = measured.selection.time.map(|k| measured.table.columns[k].name.clone());
     assert_eq!((measured.sample_time, time.as_deref()), (0.01, Some("Time")));
+    let changing = |k: usize| (20_230_504 + k / 500).to_string();
+    let measured = dated("", changing, written).expect("a clock");
+    assert_eq!((measured.sample_time, measured.selection.time), (0.01, Some(2)));
     let unread = |k: usize| format!("10h12 {k}");
-    let problem = dated("", unread).expect_err("no clock");
+    let problem = dated("", today, unread).expect_err("no clock");
     assert!(problem.contains("the times of `Time`, as `10h12 0`, cannot be read"), "{problem}");
-    let stated = dated("\"Sample Rate:\",\"10 Milliseconds\"\n", unread).expect("a sample time");
+    let stated = dated("\"Sample Rate:\",\"10 Milliseconds\"\n", today, unread).expect("a sample time");
     assert_eq!(stated.sample_time, 0.01);
-    let still = dated("", |_| "noon".to_owned()).expect_err("no clock");
+    let still = dated("", today, |_| "noon".to_owned()).expect_err("no clock");
     assert!(!still.contains("cannot be read"), "{still}");
 }
 
