@@ -135,7 +135,8 @@ fn choose(
     if tried.is_empty() {
         return Err(failure.unwrap_or_else(unstable));
     }
-    let is_allowed = |s: Structure| s.order <= settings.max_order && (s.lead <= PRESENT || !settings.causal);
+    // No machine answers before its input: effects hide behind a model that does.
+    let is_allowed = |s: Structure| s.order <= settings.max_order && s.lead <= PRESENT;
     if let Some(identified) = Identified::of(rig).filter(|found| is_allowed(found.structure)) {
         add(&mut tried, identified.structure, identified.simulator(dataset));
     }
