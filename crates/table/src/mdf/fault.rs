@@ -32,7 +32,7 @@ pub(super) enum Fault {
     RecordLength(usize),
     #[error("there should be {0}")]
     Fewer(u64),
-    #[error("the records of several groups have no numbers that tell them apart")]
+    #[error("the records of several groups have no numbers that distinguish them")]
     Mixed,
     #[error("it holds more than {0} channels")]
     Channels(usize),

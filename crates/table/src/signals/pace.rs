@@ -82,13 +82,13 @@ fn ratio(raw: &[f64], place: &[f64], speed: &[f64]) -> Option<f64> {
     let starts = (0..raw.len().saturating_sub(PATH)).step_by(PATH);
     for start in starts {
         let steps = (start..start + PATH).map(|k| 0.5 * (speed[k] + speed[k + 1]) * (raw[k + 1] - raw[k]));
-        let (told, moved) = (steps.sum::<f64>(), place[start + PATH] - place[start]);
-        if told.is_finite() && moved.is_finite() {
-            sums[0] += told * told;
-            sums[1] += told * moved;
+        let (expected, moved) = (steps.sum::<f64>(), place[start + PATH] - place[start]);
+        if expected.is_finite() && moved.is_finite() {
+            sums[0] += expected * expected;
+            sums[1] += expected * moved;
             sums[2] += moved * moved;
         }
     }
-    let [told, both, moved] = sums;
-    (told > 0.0 && both >= SAME * (told * moved).sqrt()).then_some(both / told)
+    let [expected, both, moved] = sums;
+    (expected > 0.0 && both >= SAME * (expected * moved).sqrt()).then_some(both / expected)
 }

@@ -1,4 +1,4 @@
-//! Words of headers, and the parts of a record that they stand for: a line a language or two, as words are written once accents are gone.
+//! Words of headers, and the parts of a record that they stand for: a line a language or two, as words are written without accents.
 
 /// Lists of words, set apart by commas.
 pub(super) type Words = &'static [&'static str];

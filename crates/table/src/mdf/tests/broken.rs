@@ -53,7 +53,7 @@ fn a_log_that_breaks_off_is_used_up_to_there() {
     let bytes = log("MDF", Packing::Turned(ENGINE), 1, ROWS as u64);
     let error = table(&bytes[..bytes.len() - 1]).expect_err("its only block cannot be turned");
     assert!(error.contains("`engine` left out: the file ends at byte"), "{error}");
-    let error = table(&bytes[..300]).expect_err("its channels are gone");
+    let error = table(&bytes[..300]).expect_err("its channels are missing");
     assert!(error.contains("the file ends at byte 300"), "{error}");
 }
 
