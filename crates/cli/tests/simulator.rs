@@ -180,7 +180,9 @@ fn swept([amplitude, last, natural, zeta]: [f64; 4], seed: u64) -> String {
 #[test]
 fn dynamics_of_the_machine_itself_are_no_cause() {
     let folder = Folder::with_good_rig();
-    for (k, machine) in [[8.0, 5.0, 12.0, 0.6], [10.0, 5.0, 9.0, 0.5]].into_iter().enumerate() {
+    for (k, machine) in
+        [[8.0, 5.0, 12.0, 0.6], [10.0, 5.0, 9.0, 0.5], [12.0, 4.0, 7.0, 0.6]].into_iter().enumerate()
+    {
         folder.write("record.csv", &swept(machine, 40 + k as u64));
         let page = json(&folder, &["gap", "record.csv", "--json"]);
         let named = page["verdict"]["effects"].as_array().expect("a list");

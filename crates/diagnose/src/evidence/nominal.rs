@@ -9,15 +9,28 @@ use switchback_model::system::{Borders, Mode, Quantity, Scale, System};
 /// Iterations of a fit.
 const EFFORT: Effort = Effort { iterations: 20, tolerance: 1e-3 };
 
-/// The system without effects that runs as these records do; of a declared order where there is one. None where it has no gain at rest.
+/// The system without effects that runs as these records do; of a declared order where there is one, with the delay of the paper's model. None where
+/// it has no gain at rest.
 ///
 /// # Errors
 /// [`FreeError`] where the records show no model.
 pub(crate) fn nominal(records: &[&Record], order: Option<usize>) -> Result<Option<System>, FreeError> {
+    // Whoever declares an order declares the delay of the paper's model with it.
+    nominal_at(records, order, order.map(|_| 0))
+}
+
+/// The same of an order and a delay, samples beyond the one of the paper's model, each where it is known.
+///
+/// # Errors
+/// [`FreeError`] where the records show no model.
+pub(crate) fn nominal_at(
+    records: &[&Record],
+    order: Option<usize>,
+    delay: Option<isize>,
+) -> Result<Option<System>, FreeError> {
     let settings = Settings {
         order,
-        // Whoever declares an order declares the delay of the paper's model with it.
-        delay: order.map(|_| 0),
+        delay,
         whiten: false,
         undersmooth: false,
         input_noise: false,

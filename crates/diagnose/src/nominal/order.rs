@@ -11,7 +11,7 @@ use crate::model::stability::settles;
 use crate::nominal::identified::Identified;
 use crate::nominal::identify::{first_fit, identify};
 use crate::nominal::knots::{first_grid, refine};
-use crate::nominal::structure::{ROUNDS, SIMULATION, Structure};
+use crate::nominal::structure::{PRESENT, ROUNDS, SIMULATION, Structure};
 use crate::records::dataset::{Criterion, Dataset, ScaledRecord};
 use crate::records::motion::Begins;
 use crate::residuals::score::innovations;
@@ -55,8 +55,6 @@ pub(crate) struct Simulator {
 
 /// Largest lead tried, samples.
 const LEADS: isize = 2;
-/// The lead at which an output follows the input within its sample, the largest in real time.
-const PRESENT: isize = 1;
 /// A structure this much worse than the best, as a ratio of mean squares, is as good if it is simpler.
 const AS_GOOD: f64 = 1.03;
 /// Below this ratio of mean squares, the one-step fit is no efficient estimate of a simulator.
@@ -135,8 +133,7 @@ fn choose(
     if tried.is_empty() {
         return Err(failure.unwrap_or_else(unstable));
     }
-    // No machine answers before its input: effects hide behind a model that does.
-    let is_allowed = |s: Structure| s.order <= settings.max_order && s.lead <= PRESENT;
+    let is_allowed = |s: Structure| s.order <= settings.max_order;
     if let Some(identified) = Identified::of(rig).filter(|found| is_allowed(found.structure)) {
         add(&mut tried, identified.structure, identified.simulator(dataset));
     }

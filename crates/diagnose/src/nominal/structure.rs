@@ -7,6 +7,8 @@ use crate::records::motion::Begins;
 /// mode is two orders more.
 const HIGHER: usize = 2;
 const LATER: isize = 3;
+/// The lead at which an output follows the input within its sample, the largest in real time.
+pub(super) const PRESENT: isize = 1;
 /// Rounds of fitting as a simulator while structures are compared.
 pub(super) const ROUNDS: usize = 10;
 
