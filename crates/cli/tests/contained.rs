@@ -152,11 +152,12 @@ fn the_folder_of_a_guard_that_was_killed_is_removed_by_the_diagnosis_or_the_next
     let mut process = place.gap("60").spawn().expect("it starts");
     place.wait_for_step(&mut process);
     let guard = child(process.id()).expect("a guard");
-    // A guard that stands still cannot clear up once the diagnosis has ended.
-    signal("-STOP", guard);
+    // A diagnosis that stands still cannot clear up behind its guard. A guard that stands still goes on once the diagnosis has ended: the system
+    // continues process groups that lose their parent.
+    signal("-STOP", process.id());
+    signal("-KILL", guard);
     signal("-KILL", process.id());
     process.wait().expect("it ends");
-    signal("-KILL", guard);
     assert_eq!(listing(&place.temporary()).len(), 1, "its folder");
     place.fmu("abort()").expect("there was a compiler");
     assert_eq!(place.gap("60").output().expect("it runs").status.code(), Some(2));

@@ -65,7 +65,7 @@ pub fn compare(machine: &[MachineRecord<'_>], source: &Source) -> Result<Option<
     let used: Vec<usize> = (0..machine.len()).filter(|&k| is_used(&machine[k])).collect();
     let fitted: Vec<&Record> = used.iter().map(|&k| &screened[k]).collect();
     let plain: Vec<Stretch> = used.iter().map(|&k| all[k].clone()).collect();
-    let Some(own) = nominal(&fitted, None)? else { return Ok(None) };
+    let Some(own) = nominal(&fitted, (None, None))? else { return Ok(None) };
     let mut criterion = Criterion { filter: Vec::new(), sd: Criterion::of(&errors(&own, &plain)).sd };
     let predicted: Vec<Record> = used
         .iter()

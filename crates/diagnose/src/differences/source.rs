@@ -45,7 +45,7 @@ impl Source {
             Self::Records(records) => {
                 let own: Vec<&Record> = records.iter().collect();
                 let records = stretches(records);
-                let Some(first) = nominal(&own, None)? else { return Ok(None) };
+                let Some(first) = nominal(&own, (None, None))? else { return Ok(None) };
                 let errors = records
                     .iter()
                     .map(|s| s.simulate(&first).iter().zip(&s.y).map(|(run, y)| y - run).collect())

@@ -36,7 +36,7 @@ struct Search<'a> {
 /// its gain exceeds the extended BIC's price of its parameters, and what an effect makes needless, a pole or another effect, is dropped.
 pub(super) fn surrogate(records: &[&Record], noise: f64) -> Result<Option<System>, FreeError> {
     let noisy: Vec<Record> = records.iter().enumerate().map(|(k, r)| with_noise(r, noise, k)).collect();
-    let Some(mut system) = nominal(&noisy.iter().collect::<Vec<_>>(), None)? else { return Ok(None) };
+    let Some(mut system) = nominal(&noisy.iter().collect::<Vec<_>>(), (None, None))? else { return Ok(None) };
     let pairs: Vec<(&[f64], &[f64])> = records.iter().map(|r| (r.v(), r.y())).collect();
     let stretches = Stretch::all(&pairs);
     let samples = stretches.iter().map(|s| s.v.len()).sum();

@@ -9,25 +9,14 @@ use switchback_model::system::{Borders, Mode, Quantity, Scale, System};
 /// Iterations of a fit.
 const EFFORT: Effort = Effort { iterations: 20, tolerance: 1e-3 };
 
-/// The system without effects that runs as these records do; of a declared order where there is one, with the delay of the paper's model. None where
-/// it has no gain at rest.
-///
-/// # Errors
-/// [`FreeError`] where the records show no model.
-pub(crate) fn nominal(records: &[&Record], order: Option<usize>) -> Result<Option<System>, FreeError> {
-    // Whoever declares an order declares the delay of the paper's model with it.
-    nominal_at(records, order, order.map(|_| 0))
-}
+/// Order and delay, samples beyond the one of the paper's model, each where it is known: whoever declares an order declares no further delay.
+pub(crate) type Known = (Option<usize>, Option<isize>);
 
-/// The same of an order and a delay, samples beyond the one of the paper's model, each where it is known.
+/// The system without effects that runs as these records do. None where it has no gain at rest.
 ///
 /// # Errors
 /// [`FreeError`] where the records show no model.
-pub(crate) fn nominal_at(
-    records: &[&Record],
-    order: Option<usize>,
-    delay: Option<isize>,
-) -> Result<Option<System>, FreeError> {
+pub(crate) fn nominal(records: &[&Record], (order, delay): Known) -> Result<Option<System>, FreeError> {
     let settings = Settings {
         order,
         delay,

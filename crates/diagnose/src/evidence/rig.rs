@@ -26,7 +26,8 @@ impl Judged {
     pub fn identified(rig: &Rig) -> Result<Option<Self>, FreeError> {
         let Ok(rig) = &dimensionless(rig) else { return Ok(None) };
         let fitted = rig.records.iter().filter(|r| r.usage == Usage::Fit).map(|r| &r.record);
-        let Some(nominal) = nominal(&fitted.collect::<Vec<_>>(), rig.order)? else { return Ok(None) };
+        let known = (rig.order, rig.order.map(|_| 0));
+        let Some(nominal) = nominal(&fitted.collect::<Vec<_>>(), known)? else { return Ok(None) };
         Ok(Self::of(nominal, &measured(rig), rig, false))
     }
 
@@ -41,9 +42,8 @@ impl Judged {
         let predictions: Vec<Vec<f64>> = rig.records.iter().filter_map(|r| r.predicted.clone()).collect();
         let of = |(r, y): (&RigRecord, &Vec<f64>)| Record::new(r.record.v().to_vec(), y.clone()).ok();
         let predicted: Vec<Record> = rig.records.iter().zip(&predictions).filter_map(of).collect();
-        let Some(nominal) = nominal(&predicted.iter().collect::<Vec<_>>(), rig.order)? else {
-            return Ok(None);
-        };
+        let known = (rig.order, rig.order.map(|_| 0));
+        let Some(nominal) = nominal(&predicted.iter().collect::<Vec<_>>(), known)? else { return Ok(None) };
         let stretches = measured(rig);
         let carried = stretches.iter().zip(&predictions).map(|(s, p)| s.carrying(&nominal, p));
         let stretches: Vec<Stretch> = carried.collect();

@@ -1,7 +1,7 @@
 //! The structure that cross-validation of the free run chooses, as a start of a simulator.
 
 use super::structure::{PRESENT, ROUNDS, SIMULATION, Structure};
-use crate::evidence::nominal_at;
+use crate::evidence::nominal;
 use crate::likelihood::engine::{Fit, FitContext, fit};
 use crate::model::augmented::AugmentedModel;
 use crate::nominal::given::scaled;
@@ -22,12 +22,10 @@ impl Identified {
     pub(crate) fn of(rig: &Rig) -> Option<Self> {
         let records = rig.records.iter().filter(|r| r.usage == Usage::Fit).map(|r| &r.record);
         let records: Vec<_> = records.collect();
-        let free = nominal_at(&records, None, None).ok()??;
+        let of = |delay| nominal(&records, (None, delay)).ok()?;
+        let free = of(None)?;
         // No machine answers before its input: effects hide behind a model that does.
-        let system = match 1 - free.linear.lag() > PRESENT {
-            true => nominal_at(&records, None, Some(-PRESENT)).ok()??,
-            false => free,
-        };
+        let system = if 1 - free.linear.lag() > PRESENT { of(Some(-PRESENT))? } else { free };
         let a = system.linear.a().to_vec();
         let structure = Structure { lead: 1 - system.linear.lag(), ..Structure::of_order(a.len()) };
         let mut b = system.linear.b();

@@ -133,8 +133,8 @@ fn choose(
     if tried.is_empty() {
         return Err(failure.unwrap_or_else(unstable));
     }
-    let is_allowed = |s: Structure| s.order <= settings.max_order;
-    if let Some(identified) = Identified::of(rig).filter(|found| is_allowed(found.structure)) {
+    let is_allowed = |found: &Identified| found.structure.order <= settings.max_order;
+    if let Some(identified) = Identified::of(rig).filter(is_allowed) {
         add(&mut tried, identified.structure, identified.simulator(dataset));
     }
     let steps =
