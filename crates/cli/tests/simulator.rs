@@ -233,3 +233,29 @@ fn another_day_is_compared_by_its_records() {
     folder.write("metres.csv", &other);
     refused("metres.csv", "[m]");
 }
+
+#[test]
+fn a_zero_or_a_sign_that_differs_between_two_days_comes_first() {
+    let folder = Folder::with_good_rig();
+    let (monday, tuesday) = (walk(2000, 6), walk(1500, 7));
+    folder.write("monday.csv", &table(&monday, &machine(&monday, 1.0), None));
+    let changed = |change: fn(f64) -> f64| {
+        let y: Vec<f64> = machine(&tuesday, 1.0).into_iter().map(change).collect();
+        folder.write("tuesday.csv", &table(&tuesday, &y, None));
+        json(&folder, &["gap", "monday.csv", "tuesday.csv", "--json"])
+    };
+    let value = |page: &serde_json::Value, which: &str| page["shifts"][0][which]["value"].as_f64();
+    let cases: [(fn(f64) -> f64, _, _, &str); 2] =
+        [(|y| y + 1.7, Some(1.7), None, "zero is another"), (|y| -y, None, Some(-1.0), "sign is another")];
+    let near = |found: Option<f64>, wanted: Option<f64>| match (found, wanted) {
+        (Some(found), Some(wanted)) => (found - wanted).abs() < 0.02,
+        (found, wanted) => found == wanted,
+    };
+    for (change, offset, gain, words) in cases {
+        let page = changed(change);
+        assert!(near(value(&page, "offset"), offset) && near(value(&page, "gain"), gain), "{page:#}");
+        assert!(page["in_words"][0].as_str().is_some_and(|sentence| sentence.contains(words)), "{page:#}");
+        assert_eq!(page["verdict"]["effects"], serde_json::json!(["backlash"]), "{page:#}");
+        assert!(page["gap"]["closure"]["estimate"].as_f64().is_some_and(|share| share > 0.9), "{page:#}");
+    }
+}

@@ -1,9 +1,10 @@
 //! The diagnosis, its independent pieces on all cores.
 
+use super::shift::{Shift, restored, shifts, without};
 use super::{DiagnosisError, Source, Subject};
 use crate::progress::Stages;
 use rayon::prelude::*;
-use switchback_diagnose::{Diagnosis, Effect, Phase, Settings, Workers, diagnose_with};
+use switchback_diagnose::{Diagnosis, Effect, Model, Phase, Settings, Workers, diagnose_with};
 use switchback_model::rig::Rig;
 
 /// A diagnosis with the rig it is about.
@@ -15,6 +16,8 @@ pub struct Report {
     pub source: Source,
     /// What was found.
     pub diagnosis: Diagnosis,
+    /// Held-out recordings with another zero or gain than the fit records, which the diagnosis is without.
+    pub shifts: Vec<Shift>,
 }
 
 /// Pieces of a diagnosis as tasks of the thread pool, counted as they are done.
@@ -55,11 +58,21 @@ pub fn examine_watched(
     progress: &dyn Stages,
 ) -> Result<Report, DiagnosisError> {
     let Subject { rig, model, source, notes } = subject;
-    let mut diagnosis = diagnose_with(&Pool(progress), &rig, model, settings)
-        .map_err(|error| DiagnosisError::new(&rig.name, &error))?;
+    let is_identified = model == Model::Identify;
+    let diagnosed = |rig: &Rig, model: Model| {
+        diagnose_with(&Pool(progress), rig, model, settings)
+            .map_err(|error| DiagnosisError::new(&rig.name, &error))
+    };
+    let mut diagnosis = diagnosed(&rig, model)?;
+    // A source beside the machine is aligned with it by its differences.
+    let mut shifts = if is_identified { shifts(&rig, &diagnosis) } else { Vec::new() };
+    if !shifts.is_empty() {
+        diagnosis = diagnosed(&without(&rig, &shifts), Model::Identify)?;
+        shifts = restored(&mut diagnosis, &shifts);
+    }
     diagnosis.limitations.extend(notes);
     diagnosis.limitations.extend(left_out(settings));
-    Ok(Report { rig, source, diagnosis })
+    Ok(Report { rig, source, diagnosis, shifts })
 }
 
 /// What a reader must know where candidates were left out.

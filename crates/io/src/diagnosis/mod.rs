@@ -15,6 +15,7 @@ mod parameter;
 mod posterior;
 mod prior;
 mod request;
+mod shift;
 mod subject;
 mod units;
 
@@ -41,6 +42,7 @@ pub use posterior::{NoPosterior, posterior};
 pub use prior::NoPrior;
 pub use prior::prior;
 pub use request::Request;
+pub use shift::{Estimate, Shift};
 pub use subject::Source;
 pub use subject::Subject;
 pub use subject::SubjectError;

@@ -61,6 +61,15 @@ pub(super) fn divide(
     }
 }
 
+/// Ending of the name of what is held out of a record.
+const HELD_OUT_SIDE: &str = "-held-out";
+
+/// Whether a name is that of the rest of a record, of which another part is fitted.
+pub(crate) fn is_rest_of(name: &str, fitted: &str) -> bool {
+    let of_record = |name: &str| name.split("-part-").next().unwrap_or(name).to_owned();
+    of_record(name).strip_suffix(HELD_OUT_SIDE).is_some_and(|record| record == of_record(fitted))
+}
+
 /// The names of a record's parts: its own where it is whole.
 pub(super) fn names(record: &str, parts: &[Part]) -> Vec<String> {
     let of = |usage: Usage| parts.iter().filter(|part| part.usage == usage).count();
@@ -72,7 +81,7 @@ pub(super) fn names(record: &str, parts: &[Part]) -> Vec<String> {
             let is_held_out = part.usage == Usage::Holdout;
             let count = &mut counts[usize::from(is_held_out)];
             *count += 1;
-            let side = if is_cut && is_held_out { "-held-out" } else { "" };
+            let side = if is_cut && is_held_out { HELD_OUT_SIDE } else { "" };
             let piece = if of(part.usage) > 1 { format!("-part-{count}") } else { String::new() };
             format!("{record}{side}{piece}")
         })
@@ -88,6 +97,12 @@ mod tests {
     fn divided(pieces: &[Range<usize>], held_out: Option<f64>) -> Vec<(Range<usize>, Usage)> {
         let parts = divide(pieces, (Fit, held_out), (10, &InputForm::Manifest)).unwrap();
         parts.into_iter().map(|part| (part.range, part.usage)).collect()
+    }
+
+    #[test]
+    fn the_rest_of_a_record_is_known_by_its_name() {
+        assert!(is_rest_of("a-held-out", "a") && is_rest_of("a-held-out-part-2", "a-part-1"));
+        assert!(!is_rest_of("b-held-out", "a") && !is_rest_of("a", "a") && !is_rest_of("tuesday", "monday"));
     }
 
     #[test]

@@ -39,6 +39,7 @@ mod wire;
 mod write;
 
 pub use assemble::Loaded;
+pub(crate) use cut::is_rest_of;
 pub use frame::Frame;
 pub use frame::load_frames;
 pub use manifest::manifest;

@@ -10,7 +10,7 @@ use switchback_diagnose::{
     Candidate, Cell, CellInterval, Diagnosis, Effect, ExperimentKind, Figure, FittedParameter, Horizon,
     HorizonGain, Stage, Status, Together,
 };
-use switchback_io::diagnosis::{Report, Source, Units, reported};
+use switchback_io::diagnosis::{Estimate, Report, Source, Units, reported};
 use switchback_io::output::{stamped, stamped_schema};
 
 /// Name and version of the layout.
@@ -63,6 +63,9 @@ pub(crate) struct GapFile {
     /// What a posterior says that was trained on rigs whose cause is known; null where it was not asked: rules show candidates and none was given, an order is declared or an experiment was designed, or few differences align the source that is compared.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub posterior: Option<Posterior>,
+    /// Held-out recordings whose output differs from that of the fit records' model by a constant or a factor: all else is of these recordings without it.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub shifts: Vec<Shift>,
     /// What to read with care, a sentence each.
     pub limitations: Vec<String>,
     /// Version of Switchback that wrote it.
@@ -98,6 +101,26 @@ pub(crate) struct Verdict {
     /// How many times larger the error is on held-out records that were taken under other conditions than the fit records.
     #[schemars(range(min = 0))]
     pub held_out_error_ratio: Option<f64>,
+}
+
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct Shift {
+    /// The recording.
+    pub record: String,
+    /// The constant that its output is above, output units; null where its zero is the same.
+    pub offset: Option<Estimated>,
+    /// The factor by which its output is larger; null where its gain is the same.
+    pub gain: Option<Estimated>,
+}
+
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct Estimated {
+    /// The estimate.
+    pub value: f64,
+    /// Half the width of its 95 % interval, by a block bootstrap.
+    pub half_width: f64,
 }
 
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -401,6 +424,7 @@ pub fn schema() -> Schema {
 /// `left` is the deviance that causes in general would still gain, which grows with `samples`. `corrected_by` is an effect in
 /// the augmented model that is no cause of its own; `calibrated` shows whether the probability was calibrated for such records; `refit`
 /// is the model identified anew that closes as much of the gap as any cause (status `refit`), its `delay` as `identify` shows it;
+/// `shifts` are held-out recordings with another zero or gain than the fit records, absent where there are none;
 /// `held_out_error_ratio` is how many times as much (root mean square) the model errs on held-out records that were taken under other
 /// conditions than the fit records, which show nothing missing. `second_opinion` is what a verdict says
 /// that was fitted to so many diagnoses (`examples`) of rigs with known causes, null where an order is declared or an experiment was
@@ -433,10 +457,16 @@ pub fn json(report: &Report) -> String {
         probability_unexplained: diagnosis.probability_unexplained,
         second_opinion: diagnosis.second_opinion.as_ref().map(second_opinion),
         posterior: diagnosis.classification.as_ref().map(Posterior::of),
+        shifts: report.shifts.iter().map(shift).collect(),
         limitations: diagnosis.limitations.clone(),
         version: env!("CARGO_PKG_VERSION").to_owned(),
     };
     stamped(SCHEMA, &page)
+}
+
+fn shift(shift: &switchback_io::diagnosis::Shift) -> Shift {
+    let written = |e: Estimate| Estimated { value: e.value, half_width: e.half_width };
+    Shift { record: shift.record.clone(), offset: shift.offset.map(written), gain: shift.gain.map(written) }
 }
 
 fn second_opinion(reported: &fitted::SecondOpinion) -> SecondOpinion {
