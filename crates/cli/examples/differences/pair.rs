@@ -1,0 +1,335 @@
+//! Pairs of a simulator and a machine that differ in one quantity, simulated by plain loops.
+//!
+//! ```text
+//! p = v but for the play,   u = k·p + c·p² ± F + d·dv/dt + m·d²v/dt²,   y = gain·(zero + G(u(t − delay))),   G of unit gain at rest
+//! ```
+//!
+//! `G` is one real pole or a pair of poles, its input held between samples. The machine's sensor is noisy, the simulator's output is not.
+
+use rand_chacha::ChaCha8Rng;
+use rand_chacha::rand_core::{Rng, SeedableRng};
+use std::f64::consts::TAU;
+use switchback_model::Record;
+use switchback_model::rig::{Rig, RigRecord, Role, Usage};
+
+/// Samples a second, and of a record.
+const RATE: f64 = 200.0;
+const SAMPLES: usize = 4800;
+/// Half the stroke, mm.
+const STROKE: f64 = 20.0;
+
+/// A quantity in which both sides differ, named as the row that shows it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Kind {
+    Offset,
+    Gain,
+    Sign,
+    Thousand,
+    Delay,
+    Friction,
+    Stiffness,
+    Curvature,
+    TimeConstant,
+    Frequency,
+    Damping,
+    Play,
+    /// An effect that the simulator lacks.
+    LacksPlay,
+    LacksViscosity,
+    LacksInertia,
+    /// One that only the simulator has.
+    HasPlay,
+    HasViscosity,
+    HasInertia,
+    /// Effects of both, nothing differs.
+    SameEffects,
+    /// Neither has one, nothing differs.
+    Same,
+}
+
+impl Kind {
+    pub(crate) const ALL: [Self; 20] = [
+        Self::Offset,
+        Self::Gain,
+        Self::Sign,
+        Self::Thousand,
+        Self::Delay,
+        Self::Friction,
+        Self::Stiffness,
+        Self::Curvature,
+        Self::TimeConstant,
+        Self::Frequency,
+        Self::Damping,
+        Self::Play,
+        Self::LacksPlay,
+        Self::LacksViscosity,
+        Self::LacksInertia,
+        Self::HasPlay,
+        Self::HasViscosity,
+        Self::HasInertia,
+        Self::SameEffects,
+        Self::Same,
+    ];
+
+    /// The row that must come first; none where nothing differs.
+    pub(crate) fn row(self) -> Option<&'static str> {
+        match self {
+            Self::Offset => Some("offset"),
+            Self::Gain | Self::Sign | Self::Thousand => Some("gain"),
+            Self::Delay => Some("delay"),
+            Self::Friction => Some("friction"),
+            Self::Stiffness => Some("stiffness"),
+            Self::Curvature => Some("curvature"),
+            Self::TimeConstant => Some("time_constant"),
+            Self::Frequency => Some("frequency"),
+            Self::Damping => Some("damping_ratio"),
+            Self::Play | Self::LacksPlay | Self::HasPlay => Some("play"),
+            Self::LacksViscosity | Self::HasViscosity => Some("damping"),
+            Self::LacksInertia | Self::HasInertia => Some("inertia"),
+            Self::SameEffects | Self::Same => None,
+        }
+    }
+}
+
+/// Everything that a side has.
+#[derive(Debug, Clone, PartialEq)]
+struct Side {
+    offset: f64,
+    gain: f64,
+    /// Samples.
+    delay: usize,
+    friction: f64,
+    stiffness: f64,
+    curvature: f64,
+    poles: Poles,
+    play: f64,
+    viscosity: f64,
+    inertia: f64,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum Poles {
+    /// A time constant, s.
+    Real(f64),
+    /// Natural frequency, Hz, and damping ratio.
+    Pair(f64, f64),
+}
+
+/// A simulator and a machine.
+#[derive(Debug, Clone)]
+pub(crate) struct Pair {
+    pub(crate) kind: Kind,
+    simulator: Side,
+    machine: Side,
+    /// Standard deviation of the sensor's noise over that of the output.
+    noise: f64,
+    seed: u64,
+}
+
+fn uniform(rng: &mut ChaCha8Rng, low: f64, high: f64) -> f64 {
+    low + (high - low) * (rng.next_u64() >> 11) as f64 / (1_u64 << 53) as f64
+}
+
+/// A factor between 1.15 and 1.7, or its inverse.
+fn factor(rng: &mut ChaCha8Rng) -> f64 {
+    let factor = uniform(rng, 1.15, 1.7);
+    if uniform(rng, 0.0, 1.0) < 0.5 { factor } else { 1.0 / factor }
+}
+
+impl Side {
+    fn draw(rng: &mut ChaCha8Rng, kind: Kind) -> Self {
+        let pair = Poles::Pair(uniform(rng, 6.0, 20.0), uniform(rng, 0.2, 0.9));
+        let real = Poles::Real(uniform(rng, 0.01, 0.08));
+        let is_pair = match kind {
+            Kind::TimeConstant => false,
+            Kind::Frequency | Kind::Damping => true,
+            _ => uniform(rng, 0.0, 1.0) < 0.5,
+        };
+        let has = |of: &[Kind]| f64::from(u8::from(of.contains(&kind)));
+        Self {
+            offset: uniform(rng, -1.0, 1.0),
+            gain: 1.0,
+            delay: 4,
+            friction: uniform(rng, 0.3, 1.2),
+            stiffness: uniform(rng, 0.1, 0.3),
+            curvature: uniform(rng, 0.0, 3e-3),
+            poles: if is_pair { pair } else { real },
+            play: has(&[Kind::Play, Kind::SameEffects]) * uniform(rng, 0.7, 2.0),
+            viscosity: has(&[Kind::SameEffects]) * uniform(rng, 2e-3, 6e-3),
+            inertia: 0.0,
+        }
+    }
+}
+
+impl Pair {
+    /// A pair by its seed.
+    pub(crate) fn draw(kind: Kind, seed: u64) -> Self {
+        let rng = &mut ChaCha8Rng::seed_from_u64(seed);
+        let mut simulator = Side::draw(rng, kind);
+        let mut machine = simulator.clone();
+        match kind {
+            Kind::Offset => machine.offset += uniform(rng, 0.2, 2.0) * (factor(rng) - 1.0).signum(),
+            Kind::Gain => machine.gain = factor(rng),
+            Kind::Sign => machine.gain = -1.0,
+            Kind::Thousand => machine.gain = 1000_f64.powf((factor(rng) - 1.0).signum()),
+            Kind::Delay => {
+                machine.delay =
+                    (4.0 + (factor(rng) - 1.0).signum() * uniform(rng, 1.0, 4.99).floor()) as usize;
+            }
+            Kind::Friction => machine.friction *= factor(rng),
+            Kind::Stiffness => machine.stiffness *= factor(rng),
+            Kind::Curvature => machine.curvature += uniform(rng, 2e-3, 6e-3) * (factor(rng) - 1.0).signum(),
+            Kind::TimeConstant | Kind::Frequency | Kind::Damping => {
+                machine.poles = match (machine.poles, kind) {
+                    (Poles::Real(constant), _) => Poles::Real(constant * factor(rng)),
+                    (Poles::Pair(f, zeta), Kind::Frequency) => Poles::Pair(f * factor(rng), zeta),
+                    (Poles::Pair(f, zeta), _) => Poles::Pair(f, zeta * factor(rng)),
+                };
+            }
+            Kind::Play => machine.play *= factor(rng),
+            Kind::LacksPlay => machine.play = uniform(rng, 0.7, 2.0),
+            Kind::HasPlay => simulator.play = uniform(rng, 0.7, 2.0),
+            Kind::LacksViscosity => machine.viscosity = uniform(rng, 2e-3, 6e-3),
+            Kind::HasViscosity => simulator.viscosity = uniform(rng, 2e-3, 6e-3),
+            Kind::LacksInertia => machine.inertia = uniform(rng, 5e-5, 3e-4),
+            Kind::HasInertia => simulator.inertia = uniform(rng, 5e-5, 3e-4),
+            Kind::SameEffects | Kind::Same => {}
+        }
+        Self { kind, simulator, machine, noise: uniform(rng, 0.003, 0.02), seed }
+    }
+
+    /// The machine's value of the quantity in which the sides differ, in the unit of its row; none where nothing differs. The machine's delay is its
+    /// own origin, and the simulator's value is taken.
+    pub(crate) fn truth(&self) -> Option<f64> {
+        let Self { machine, simulator, .. } = self;
+        let of_poles = |constant, frequency, damping| match machine.poles {
+            Poles::Real(t) => constant * t,
+            Poles::Pair(f, zeta) => frequency * f + damping * zeta,
+        };
+        self.kind.row().map(|row| match row {
+            // Beside the other factors the row is in the machine's output.
+            "offset" => machine.offset - simulator.offset,
+            "gain" => machine.gain,
+            "delay" => (simulator.delay as f64 - machine.delay as f64) / RATE,
+            "friction" => machine.friction,
+            "stiffness" => machine.stiffness,
+            "curvature" => machine.curvature,
+            "time_constant" => of_poles(1.0, 0.0, 0.0),
+            "frequency" => of_poles(0.0, 1.0, 0.0),
+            "damping_ratio" => of_poles(0.0, 0.0, 1.0),
+            "play" => machine.play,
+            "damping" => machine.viscosity,
+            _ => machine.inertia,
+        })
+    }
+
+    /// The machine's records with the predictions of the simulator; the last third is held out.
+    pub(crate) fn rig(&self) -> Rig {
+        let mut rng = ChaCha8Rng::seed_from_u64(self.seed);
+        rng.set_stream(1);
+        let drive = Drive::draw(&mut rng);
+        let predicted = self.simulator.run(&drive);
+        let mut y = self.machine.run(&drive);
+        let mean = y.iter().sum::<f64>() / SAMPLES as f64;
+        let sd = (y.iter().map(|y| (y - mean).powi(2)).sum::<f64>() / SAMPLES as f64).sqrt();
+        for y in &mut y {
+            let normal: f64 = (0..12).map(|_| uniform(&mut rng, 0.0, 1.0)).sum::<f64>() - 6.0;
+            *y += self.noise * sd * normal;
+        }
+        let v: Vec<f64> = (0..SAMPLES).map(|t| drive.at(t as f64 / RATE)[0]).collect();
+        let cut = SAMPLES - SAMPLES / 3;
+        let record = |name: &str, usage, part: std::ops::Range<usize>| RigRecord {
+            name: name.to_owned(),
+            role: Role::Free,
+            usage,
+            record: Record::new(v[part.clone()].to_vec(), y[part.clone()].to_vec())
+                .expect("finite and equally long"),
+            predicted: Some(predicted[part].to_vec()),
+        };
+        Rig {
+            name: "pair".to_owned(),
+            sample_time: 1.0 / RATE,
+            order: None,
+            interval: None,
+            input_label: "travel [mm]".to_owned(),
+            output_label: "force [kN]".to_owned(),
+            records: vec![
+                record("first two thirds", Usage::Fit, 0..cut),
+                record("last third", Usage::Holdout, cut..SAMPLES),
+            ],
+        }
+    }
+}
+
+/// Ten sines between 0.1 and 4 Hz, slower ones larger: `[amplitude, frequency, phase]`.
+struct Drive(Vec<[f64; 3]>);
+
+impl Drive {
+    fn draw(rng: &mut ChaCha8Rng) -> Self {
+        let sine = |k: i32| {
+            let f = 0.1 * 40_f64.powf((f64::from(k) + uniform(rng, 0.0, 1.0)) / 10.0);
+            [f.powf(-0.7), f, uniform(rng, 0.0, TAU)]
+        };
+        let mut drive = Self((0..10).map(sine).collect());
+        let most = (0..SAMPLES).map(|t| drive.at(t as f64 / RATE)[0].abs()).fold(0.0, f64::max);
+        drive.0.iter_mut().for_each(|sine| sine[0] *= STROKE / most);
+        drive
+    }
+
+    /// Position, speed and acceleration.
+    fn at(&self, t: f64) -> [f64; 3] {
+        self.0.iter().fold([0.0; 3], |[x, v, a], [amplitude, f, phase]| {
+            let (omega, angle) = (TAU * f, TAU * f * t + phase);
+            [
+                x + amplitude * angle.sin(),
+                v + amplitude * omega * angle.cos(),
+                a - amplitude * omega * omega * angle.sin(),
+            ]
+        })
+    }
+}
+
+impl Side {
+    fn run(&self, drive: &Drive) -> Vec<f64> {
+        let first = drive.at(0.0)[0];
+        let (mut p, mut side) = (first, 1.0);
+        let force = |t: usize| {
+            let [x, v, a] = drive.at(t as f64 / RATE);
+            let moved = p.max(x - 0.5 * self.play).min(x + 0.5 * self.play);
+            if moved != p {
+                side = f64::signum(moved - p);
+                p = moved;
+            }
+            let curve = self.stiffness * p + self.curvature * p * p;
+            curve + side * self.friction + self.viscosity * v + self.inertia * a
+        };
+        let u: Vec<f64> = (0..SAMPLES).map(force).collect();
+        let [a, b] = self.poles.held();
+        let mut y = vec![u[0]; SAMPLES];
+        for t in 1..SAMPLES {
+            let u = |lag: usize| u[t.saturating_sub(lag + self.delay)];
+            let y_at = |lag: usize| if t >= lag { y[t - lag] } else { u(0) };
+            y[t] = b[0] * u(1) + b[1] * u(2) - a[0] * y_at(1) - a[1] * y_at(2);
+        }
+        y.iter().map(|y| self.gain * (self.offset + y)).collect()
+    }
+}
+
+impl Poles {
+    /// Coefficients of lags 1 and 2 of output and input, the input held between samples.
+    fn held(self) -> [[f64; 2]; 2] {
+        match self {
+            Self::Real(constant) => {
+                let pole = (-1.0 / (RATE * constant)).exp();
+                [[-pole, 0.0], [1.0 - pole, 0.0]]
+            }
+            Self::Pair(frequency, zeta) => {
+                let (omega, root) = (TAU * frequency, (1.0 - zeta * zeta).sqrt());
+                let (radius, angle) = ((-zeta * omega / RATE).exp(), omega * root / RATE);
+                let (cos, sin) = (angle.cos(), zeta / root * angle.sin());
+                let a = [-2.0 * radius * cos, radius * radius];
+                [a, [1.0 - radius * (cos + sin), radius * radius + radius * (sin - cos)]]
+            }
+        }
+    }
+}
