@@ -16,12 +16,17 @@ struct Reader<'m> {
     at: usize,
     is_little: bool,
     path: String,
+    /// Numbers, texts and messages that may still come. Each has a byte of its own, but for messages that hold others, or nothing.
+    left: usize,
 }
 
-/// Gives every number of a message with its path, as `position[2]`; none where the message ends before its definition does.
+/// Gives every number of a message with its path, as `position[2]`; none where the message ends before its definition does,
+/// or holds more elements than it has bytes for.
 pub(super) fn visit(definition: &Definition, data: &[u8], take: &mut dyn FnMut(&str, f64)) -> Option<()> {
     let is_little = data.get(1)? & 1 == 1;
-    let mut reader = Reader { definition, data: data.get(HEADER..)?, at: 0, is_little, path: String::new() };
+    let data = data.get(HEADER..)?;
+    let left = (DEEPEST + 1) * (data.len() + 1);
+    let mut reader = Reader { definition, data, at: 0, is_little, path: String::new(), left };
     reader.message(&definition.fields, take, 0)
 }
 
@@ -66,6 +71,7 @@ impl<'m> Reader<'m> {
     }
 
     fn element(&mut self, element: &'m Element, take: &mut dyn FnMut(&str, f64), depth: usize) -> Option<()> {
+        self.left = self.left.checked_sub(1)?;
         match element {
             Element::Number(number) => {
                 let value = self.number(*number)?;

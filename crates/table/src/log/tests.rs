@@ -3,6 +3,8 @@ use crate::tests::File;
 use mcap::records::MessageHeader;
 use std::collections::BTreeMap;
 
+mod hostile;
+
 const JOINT_STATE: &str = "std_msgs/Header header\nstring[] name\nfloat64[] position\nfloat64[] velocity\nfloat64[] effort\n\
     ================================================================================\nMSG: std_msgs/Header\nbuiltin_interfaces/Time stamp\nstring frame_id\n\
     ================================================================================\nMSG: builtin_interfaces/Time\nint32 sec\nuint32 nanosec\n";

@@ -1,0 +1,41 @@
+//! Logs that state what is not true, or hold more than memory does.
+
+use crate::table::{Table, TableError};
+use crate::tests::File;
+use mcap::records::MessageHeader;
+use std::collections::BTreeMap;
+use std::time::Instant;
+
+/// How a message begins: in little-endian CDR.
+const LITTLE: [u8; 4] = [0, 1, 0, 0];
+
+/// A log of one topic, whose messages come every hundredth of a second.
+fn of(definition: &str, message: &[u8], count: u64) -> Vec<u8> {
+    let mut bytes = std::io::Cursor::new(Vec::new());
+    let mut writer = mcap::WriteOptions::new().create(&mut bytes).expect("a log");
+    let schema = writer.add_schema("a/msg/A", "ros2msg", definition.as_bytes()).expect("a schema");
+    let channel_id = writer.add_channel(schema, "/a", "cdr", &BTreeMap::new()).expect("a channel");
+    for k in 0..count {
+        let log_time = 10_000_000 * (k + 1);
+        let header = MessageHeader { channel_id, sequence: 0, log_time, publish_time: log_time };
+        writer.write_to_known_channel(&header, &[&LITTLE, message].concat()).expect("a message");
+    }
+    writer.finish().expect("the end");
+    drop(writer);
+    bytes.into_inner()
+}
+
+fn table(name: &str, bytes: &[u8]) -> Result<Table, TableError> {
+    crate::log::read(&File::of(name, bytes).0, &mut |_| None)
+}
+
+#[test]
+fn messages_within_messages_end() {
+    let begun = Instant::now();
+    let part = |name: char, of: char| format!("====\nMSG: a/{name}\na/{of}[100] x\n");
+    let nested: String = ('B'..'M').zip('C'..'N').map(|(name, of)| part(name, of)).collect();
+    let definition = format!("float64 y\na/B[100] x\n{nested}====\nMSG: a/M\nuint8 NONE=1\n");
+    // Messages without fields take no bytes.
+    let read = table("nested.mcap", &of(&definition, &[0; 200], 3));
+    assert!(read.is_err() && begun.elapsed().as_secs() < 10, "{:?}", begun.elapsed());
+}
