@@ -105,7 +105,8 @@ impl Messages {
             self.left.insert(topic.clone());
             return;
         }
-        let own = stamp[0] as i128 * NANOSECONDS + stamp[1] as i128;
+        let [seconds, nanoseconds] = stamp.map(|part| i128::from(part as i64));
+        let own = seconds * NANOSECONDS + nanoseconds;
         let of = self.topics.entry(topic.clone()).or_default();
         let row = of.instants.len();
         of.instants.push(if own == 0 { i128::from(message.log_time) } else { own });
@@ -147,8 +148,11 @@ impl Topic {
         order.sort_by_key(|k| self.instants[*k]);
         let origin = order.first().map_or(0, |k| self.instants[*k]);
         let since = |k: &usize| (self.instants[*k] - origin) as f64 / NANOSECONDS as f64;
-        let written =
-            |k: &usize| format!("{}.{:09}", self.instants[*k] / NANOSECONDS, self.instants[*k] % NANOSECONDS);
+        let written = |k: &usize| {
+            let (seconds, rest) =
+                (self.instants[*k].div_euclid(NANOSECONDS), self.instants[*k].rem_euclid(NANOSECONDS));
+            format!("{seconds}.{rest:09}")
+        };
         let filled = |values: Vec<f64>| {
             let mut values = values;
             values.resize(rows, f64::NAN);

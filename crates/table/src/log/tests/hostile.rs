@@ -39,3 +39,16 @@ fn messages_within_messages_end() {
     let read = table("nested.mcap", &of(&definition, &[0; 200], 3));
     assert!(read.is_err() && begun.elapsed().as_secs() < 10, "{:?}", begun.elapsed());
 }
+
+#[test]
+fn stamps_of_any_number_are_instants() {
+    let definition = "std_msgs/Header header\nfloat64 x\n====\nMSG: std_msgs/Header\nT stamp\n====\nMSG: T\n\
+        float64 sec\nfloat64 nanosec\n";
+    for second in [1e300, -1e300, f64::NAN, f64::INFINITY, -0.5] {
+        let message: Vec<u8> = [second, second, 1.0].iter().flat_map(|x| x.to_le_bytes()).collect();
+        let read = table("stamps.mcap", &of(definition, &message, 3)).expect("a log");
+        assert!(
+            read.columns[0].values.iter().all(|t| *t == 0.0 || second != second.trunc() || second.is_nan())
+        );
+    }
+}
