@@ -2,6 +2,8 @@
 
 mod chosen;
 mod closest;
+#[cfg(any(feature = "mcap", feature = "parquet"))]
+mod contained;
 pub mod door;
 mod encodings;
 mod file_error;

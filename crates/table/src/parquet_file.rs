@@ -5,8 +5,6 @@ use crate::table::{DataError, DataProblem, TableError};
 use std::path::Path;
 
 #[cfg(feature = "parquet")]
-mod contained;
-#[cfg(feature = "parquet")]
 mod rows;
 #[cfg(all(test, feature = "parquet"))]
 mod tests;
@@ -35,10 +33,11 @@ pub(crate) fn read(path: &Path) -> Result<crate::table::Table, TableError> {
 /// A file that is none, is cut off, or holds no numbers.
 #[cfg(feature = "parquet")]
 pub(crate) fn read(path: &Path) -> Result<crate::table::Table, TableError> {
+    use crate::contained::contained;
     use crate::door::open;
     let file = open(path).map_err(TableError::File)?;
     // Of a file that contradicts itself the library may give up by a panic.
-    let read = contained::contained(|| rows::collect(file));
+    let read = contained(|| rows::collect(file));
     let rows = read.unwrap_or_else(|| Err("its parts contradict each other".to_owned()));
     rows.and_then(|rows| rows.table(path)).map_err(|reason| unreadable(path, reason))
 }

@@ -3,11 +3,14 @@
 use super::cdr;
 use super::definition::Definition;
 use super::unreadable;
+use crate::contained::contained;
 use crate::door::open;
 use crate::table::{Column, Kind, Place, Table, TableError, empty_column};
 use mcap::io::MessageReader;
+use mcap::sans_io::LinearReaderOptions;
 use mcap::{Channel, Message};
 use std::collections::{BTreeMap, BTreeSet, HashMap};
+use std::fs::File;
 use std::io::BufReader;
 use std::path::Path;
 
@@ -40,14 +43,14 @@ pub(super) struct Messages {
 /// # Errors
 /// A file that cannot be opened, or is broken before its first message.
 pub(super) fn collect(path: &Path, names: Option<&[String; 2]>, most: usize) -> Result<Messages, TableError> {
-    let file = BufReader::new(open(path).map_err(TableError::File)?);
+    let mut reader = reader(open(path).map_err(TableError::File)?);
     let mut definitions: HashMap<u16, Option<Definition>> = HashMap::new();
     let mut found = Messages::default();
-    for message in MessageReader::new(file) {
+    while let Some(message) = next(&mut reader) {
         let message = match message {
             Ok(message) => message,
-            Err(error) => {
-                found.broken = Some(error.to_string());
+            Err(reason) => {
+                found.broken = Some(reason);
                 break;
             }
         };
@@ -67,6 +70,30 @@ pub(super) fn collect(path: &Path, names: Option<&[String; 2]>, most: usize) -> 
             Err(unreadable::log(path, "it holds no message of ROS 2 with numbers in it".to_owned()))
         }
         _ => Ok(found),
+    }
+}
+
+type Reader = MessageReader<BufReader<File>>;
+
+/// A reader of a log, which refuses records that are much longer than the file: their length is taken on trust else, and so much memory with it.
+fn reader(file: File) -> Reader {
+    /// A compressed record is so many times as long as the file, at most.
+    const RATIO: u64 = 64;
+    /// Bytes of a record that any file may have: a picture of four million points in one colour.
+    const ANY: u64 = 1 << 25;
+    /// Most bytes of a record.
+    const LONGEST: u64 = 1 << 28;
+    let length = file.metadata().map_or(0, |metadata| metadata.len());
+    let longest = length.saturating_mul(RATIO).clamp(ANY, LONGEST);
+    let options = LinearReaderOptions::default().with_record_length_limit(longest as usize);
+    MessageReader::new_with_options(BufReader::new(file), options)
+}
+
+/// The next message, or why none comes. Of a chunk that contradicts itself the library may give up by a panic.
+fn next(reader: &mut Reader) -> Option<Result<Message<'static>, String>> {
+    match contained(|| reader.next()) {
+        Some(message) => message.map(|message| message.map_err(|error| error.to_string())),
+        None => Some(Err("its parts contradict each other".to_owned())),
     }
 }
 

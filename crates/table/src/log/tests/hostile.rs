@@ -1,5 +1,6 @@
 //! Logs that state what is not true, or hold more than memory does.
 
+use super::log;
 use crate::table::{Table, TableError};
 use crate::tests::File;
 use mcap::records::MessageHeader;
@@ -27,6 +28,39 @@ fn of(definition: &str, message: &[u8], count: u64) -> Vec<u8> {
 
 fn table(name: &str, bytes: &[u8]) -> Result<Table, TableError> {
     crate::log::read(&File::of(name, bytes).0, &mut |_| None)
+}
+
+#[test]
+fn a_stated_length_takes_no_memory() {
+    let whole = log();
+    // The length of the first record, of a chunk, and of what the chunk was before it was compressed.
+    let chunk = 8 + 9 + u64::from_le_bytes(whole[9..17].try_into().expect("eight bytes")) as usize;
+    assert_eq!(whole[chunk], 6, "a chunk");
+    for place in [9, chunk + 1, chunk + 9 + 16, chunk + 9 + 28, chunk + 9 + 36] {
+        for length in [0, 1, 1 << 24, 1 << 31, 1 << 40, u64::MAX / 2, u64::MAX - 8, u64::MAX] {
+            let mut bytes = whole.clone();
+            bytes[place..place + 8].copy_from_slice(&length.to_le_bytes());
+            let _ = table("lengths.mcap", &bytes);
+        }
+    }
+}
+
+#[test]
+fn a_chunk_that_is_shorter_than_its_records_ends_the_log() {
+    let mut bytes = std::io::Cursor::new(Vec::new());
+    let mut writer = mcap::WriteOptions::new().compression(None).create(&mut bytes).expect("a log");
+    let schema = writer.add_schema("a/msg/A", "ros2msg", b"float64 x\n").expect("a schema");
+    let channel_id = writer.add_channel(schema, "/a", "cdr", &BTreeMap::new()).expect("a channel");
+    let header = MessageHeader { channel_id, sequence: 0, log_time: 1, publish_time: 1 };
+    writer.write_to_known_channel(&header, &[LITTLE, LITTLE, LITTLE].concat()).expect("a message");
+    writer.finish().expect("the end");
+    drop(writer);
+    let mut bytes = bytes.into_inner();
+    let chunk = 8 + 9 + u64::from_le_bytes(bytes[9..17].try_into().expect("eight bytes")) as usize;
+    // Ten bytes of records, where the first has more.
+    bytes[chunk + 9 + 32..chunk + 9 + 40].copy_from_slice(&10_u64.to_le_bytes());
+    let read = table("short.mcap", &bytes);
+    assert!(read.is_err() || read.is_ok_and(|read| read.notes.iter().any(|note| note.contains("broken"))));
 }
 
 #[test]
