@@ -44,8 +44,11 @@ pub(crate) fn read(path: &Path, _choice: Choice<'_>) -> Result<Table, TableError
 #[cfg(feature = "mcap")]
 pub(crate) fn read(path: &Path, choice: Choice<'_>) -> Result<Table, TableError> {
     use crate::chosen::Chosen;
-    /// Messages looked at to see what there is.
-    const FIRST: usize = 20_000;
+    use messages::Limits;
+    /// Messages looked at to see what there is, and their numbers: 512 MiB.
+    const FIRST: Limits = Limits { messages: 20_000, numbers: 1 << 26 };
+    /// Most numbers of a table, which is kept whole: 2 GiB.
+    const MOST: Limits = Limits { messages: usize::MAX, numbers: 1 << 28 };
     let head = messages::collect(path, None, FIRST)?;
     let table = head.table(path);
     match choice(&table) {
@@ -53,7 +56,11 @@ pub(crate) fn read(path: &Path, choice: Choice<'_>) -> Result<Table, TableError>
         Some(Chosen { signals, rivals, .. }) => {
             let name = |k: usize| table.columns[k].name.clone();
             let names = signals.map(name);
-            let mut whole = messages::collect(path, Some(&names), usize::MAX)?.table(path);
+            let whole = messages::collect(path, Some(&names), MOST)?;
+            if whole.is_cut {
+                return Err(unreadable::log(path, format!("it holds more than {} numbers", MOST.numbers)));
+            }
+            let mut whole = whole.table(path);
             if !rivals.is_empty() {
                 let rivals: Vec<String> = rivals.into_iter().map(|k| format!("`{}`", name(k))).collect();
                 whole.notes.push(format!("the log also holds {}", rivals.join(", ")));

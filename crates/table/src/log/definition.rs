@@ -2,6 +2,9 @@
 
 use std::collections::HashMap;
 
+/// Most bytes of a name: ROS 2 allows 255 of a topic.
+pub(super) const LONGEST_NAME: usize = 255;
+
 /// A number's form.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Number {
@@ -51,7 +54,7 @@ pub(super) struct Definition {
 }
 
 impl Definition {
-    /// None where a line is no field, or a message within has no definition.
+    /// None where a line is no field, a name is too long to be one, or a message within has no definition.
     pub(super) fn parse(text: &str) -> Option<Self> {
         let is_rule = |line: &str| line.len() > 3 && line.chars().all(|letter| letter == '=');
         let mut definition = Self::default();
@@ -95,7 +98,7 @@ fn short(name: &str) -> String {
 /// A field; none within where the line is a constant.
 fn field(line: &str) -> Option<Option<Field>> {
     let (kind, rest) = line.split_once(char::is_whitespace)?;
-    let name = rest.split_whitespace().next()?;
+    let name = rest.split_whitespace().next().filter(|name| name.len() <= LONGEST_NAME)?;
     if name.contains('=') || rest.split_whitespace().nth(1).is_some_and(|word| word.starts_with('=')) {
         return Some(None);
     }

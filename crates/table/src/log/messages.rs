@@ -1,7 +1,7 @@
 //! The messages of a log, as columns.
 
 use super::cdr;
-use super::definition::Definition;
+use super::definition::{Definition, LONGEST_NAME};
 use super::unreadable;
 use crate::contained::contained;
 use crate::door::open;
@@ -17,6 +17,21 @@ use std::path::Path;
 /// What a clock in the header of a message is called, and what its columns are not.
 const STAMP: [&str; 2] = ["header.stamp.sec", "header.stamp.nanosec"];
 const NANOSECONDS: i128 = 1_000_000_000;
+
+/// Most columns of a log.
+const MOST_COLUMNS: usize = 1 << 16;
+
+/// Numbers that take as much memory as the clock of a message does, which is kept as text, too.
+const CLOCK: usize = 10;
+
+/// How much of a log is read.
+#[derive(Clone, Copy)]
+pub(super) struct Limits {
+    /// Most messages.
+    pub(super) messages: usize,
+    /// Most numbers of the table that comes of it.
+    pub(super) numbers: usize,
+}
 
 /// The numbers of a topic, message by message.
 #[derive(Default)]
@@ -34,6 +49,12 @@ pub(super) struct Messages {
     /// Topics whose messages cannot be read.
     left: BTreeSet<String>,
     count: usize,
+    /// Columns of all topics.
+    width: usize,
+    /// Messages of the topic that has most.
+    longest: usize,
+    /// Whether more of them came than the limits allow.
+    pub(super) is_cut: bool,
     /// Why no more messages came, where that is not the end of the log.
     broken: Option<String>,
 }
@@ -42,7 +63,11 @@ pub(super) struct Messages {
 ///
 /// # Errors
 /// A file that cannot be opened, or is broken before its first message.
-pub(super) fn collect(path: &Path, names: Option<&[String; 2]>, most: usize) -> Result<Messages, TableError> {
+pub(super) fn collect(
+    path: &Path,
+    names: Option<&[String; 2]>,
+    limits: Limits,
+) -> Result<Messages, TableError> {
     let mut reader = reader(open(path).map_err(TableError::File)?);
     let mut definitions: HashMap<u16, Option<Definition>> = HashMap::new();
     let mut found = Messages::default();
@@ -60,7 +85,8 @@ pub(super) fn collect(path: &Path, names: Option<&[String; 2]>, most: usize) -> 
             let definition = definitions.entry(channel.id).or_insert_with(|| definition(channel));
             found.add(&message, definition.as_ref(), names);
         }
-        if found.count >= most {
+        found.is_cut = found.numbers() >= limits.numbers;
+        if found.is_cut || found.count >= limits.messages {
             return Ok(found);
         }
     }
@@ -105,7 +131,8 @@ fn is_of(name: &str, topic: &str) -> bool {
 fn definition(channel: &Channel<'_>) -> Option<Definition> {
     let schema = channel.schema.as_ref()?;
     let is_ros = channel.message_encoding == "cdr" && schema.encoding == "ros2msg";
-    Definition::parse(std::str::from_utf8(&schema.data).ok()?).filter(|_| is_ros)
+    let is_named = channel.topic.len() <= LONGEST_NAME;
+    Definition::parse(std::str::from_utf8(&schema.data).ok()?).filter(|_| is_ros && is_named)
 }
 
 impl Messages {
@@ -124,12 +151,16 @@ impl Messages {
                 .position(|part| *part == path)
             {
                 Some(part) => stamp[part] = value,
-                None if is_wanted(path) => values.push((path.to_owned(), value)),
+                None if is_wanted(path) && values.len() <= MOST_COLUMNS => {
+                    values.push((path.to_owned(), value));
+                }
                 None => {}
             })
         });
-        if read.is_none() {
-            self.left.insert(topic.clone());
+        let is_new = |path: &str| self.topics.get(topic).is_none_or(|of| !of.values.contains_key(path));
+        let is_full = self.width >= MOST_COLUMNS && values.iter().any(|(path, _)| is_new(path));
+        if read.is_none() || values.len() > MOST_COLUMNS || is_full {
+            self.left.insert(topic.chars().take(LONGEST_NAME).collect());
             return;
         }
         let [seconds, nanoseconds] = stamp.map(|part| i128::from(part as i64));
@@ -137,11 +168,19 @@ impl Messages {
         let of = self.topics.entry(topic.clone()).or_default();
         let row = of.instants.len();
         of.instants.push(if own == 0 { i128::from(message.log_time) } else { own });
+        self.longest = self.longest.max(row + 1);
+        let width = of.values.len();
         for (path, value) in values {
             let column = of.values.entry(path).or_default();
             column.resize(row, f64::NAN);
             column.push(if value.is_finite() { value } else { f64::NAN });
         }
+        self.width += of.values.len() - width;
+    }
+
+    /// How many numbers the table of them has, or as many as take the memory that it takes: all its columns are as long as the longest.
+    fn numbers(&self) -> usize {
+        (self.width + CLOCK * self.topics.len()).saturating_mul(self.longest)
     }
 
     /// Every topic's clock and numbers as columns; rows are messages, each topic's counted by itself.

@@ -1,6 +1,7 @@
 //! Logs that state what is not true, or hold more than memory does.
 
 use super::log;
+use crate::log::messages::{Limits, collect};
 use crate::table::{Table, TableError};
 use crate::tests::File;
 use mcap::records::MessageHeader;
@@ -85,4 +86,22 @@ fn stamps_of_any_number_are_instants() {
             read.columns[0].values.iter().all(|t| *t == 0.0 || second != second.trunc() || second.is_nan())
         );
     }
+}
+
+#[test]
+fn numbers_are_read_as_far_as_memory_goes() {
+    // Lists of lists of lists: more numbers than a log may have columns.
+    let part = |name: char, of: &str| format!("====\nMSG: a/{name}\n{of}[64] x\n");
+    let definition = format!("a/B[64] x\n{}{}", part('B', "a/C"), part('C', "uint8"));
+    let read = table("wide.mcap", &of(&definition, &[7; 1 << 18], 2));
+    assert!(read.is_err(), "too many to be columns");
+    let few = File::of("few.mcap", &of("uint8[54] x\n", &[7; 54], 200));
+    let limits = Limits { messages: 1000, numbers: 6400 };
+    let read = collect(&few.0, None, limits).expect("the first messages");
+    assert!(read.is_cut && read.table(&few.0).places.len() == 100);
+    let names = ["/a.x[3]", "/a.x[4]"].map(str::to_owned);
+    assert!(!collect(&few.0, Some(&names), limits).expect("all messages").is_cut);
+    // A name that is no name.
+    let named = format!("uint8 {}\n", "x".repeat(300));
+    assert!(table("name.mcap", &of(&named, &[7], 20)).is_err());
 }
