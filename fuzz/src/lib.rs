@@ -14,11 +14,17 @@ pub mod json;
 pub mod manifest;
 #[path = "targets/mat.rs"]
 pub mod mat;
+#[path = "targets/mcap.rs"]
+pub mod mcap;
+#[path = "targets/mdf.rs"]
+pub mod mdf;
 #[path = "targets/merge.rs"]
 pub mod merge;
 mod one_file;
 #[path = "targets/page.rs"]
 pub mod page;
+#[path = "targets/parquet.rs"]
+pub mod parquet;
 #[path = "targets/scenario.rs"]
 pub mod scenario;
 

@@ -181,6 +181,24 @@ fn mat_files() {
 }
 
 #[test]
+#[cfg(feature = "mdf")]
+fn mdf_files() {
+    fuzz("mdf", targets::mdf::run, 20_000);
+}
+
+#[test]
+#[cfg(feature = "mcap")]
+fn mcap_files() {
+    fuzz("mcap", targets::mcap::run, 20_000);
+}
+
+#[test]
+#[cfg(feature = "parquet")]
+fn parquet_files() {
+    fuzz("parquet", targets::parquet::run, 10_000);
+}
+
+#[test]
 fn json_files() {
     fuzz("json", targets::json::run, 5000);
 }

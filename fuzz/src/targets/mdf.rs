@@ -1,0 +1,10 @@
+//! Logs of cars that end in .mf4.
+
+use super::{Scratch, one_file};
+
+thread_local!(static FOLDER: Scratch = Scratch::new());
+
+/// Runs it on an input.
+pub fn run(bytes: &[u8]) {
+    FOLDER.with(|folder| one_file(folder, "fuzz.mf4", bytes));
+}

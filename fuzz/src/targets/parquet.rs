@@ -1,0 +1,10 @@
+//! Tables of data frames that end in .parquet.
+
+use super::{Scratch, one_file};
+
+thread_local!(static FOLDER: Scratch = Scratch::new());
+
+/// Runs it on an input.
+pub fn run(bytes: &[u8]) {
+    FOLDER.with(|folder| one_file(folder, "fuzz.parquet", bytes));
+}
