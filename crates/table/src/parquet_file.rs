@@ -5,7 +5,11 @@ use crate::table::{DataError, DataProblem, TableError};
 use std::path::Path;
 
 #[cfg(feature = "parquet")]
+mod compact;
+#[cfg(feature = "parquet")]
 mod rows;
+#[cfg(feature = "parquet")]
+mod stated;
 #[cfg(all(test, feature = "parquet"))]
 mod tests;
 

@@ -1,14 +1,16 @@
 //! Numbers, row by row.
 
+use super::stated;
 use crate::table::{Column, Kind, Place, Table, empty_column};
 use parquet::basic::{LogicalType, TimeUnit, Type as Physical};
 use parquet::errors::ParquetError;
-use parquet::file::reader::{ChunkReader, FileReader};
+use parquet::file::reader::FileReader;
 use parquet::file::serialized_reader::SerializedFileReader;
 use parquet::record::{Field, Row};
 use parquet::schema::types::{Type, TypePtr};
 use std::collections::BTreeSet;
 use std::fmt::Write;
+use std::fs::File;
 use std::path::Path;
 
 /// Most numbers of a list that are columns: more are pictures.
@@ -44,8 +46,10 @@ pub(super) struct Rows {
 ///
 /// # Errors
 /// Where it is no such file, has no numbers, or is broken before its first row.
-pub(super) fn collect(file: impl ChunkReader + 'static) -> Result<Rows, String> {
+pub(super) fn collect(file: File) -> Result<Rows, String> {
     let worded = |error: ParquetError| worded(&error);
+    stated::check_schema(&file)?;
+    let pages = file.try_clone().map_err(|error| error.to_string())?;
     let reader = SerializedFileReader::new(file).map_err(worded)?;
     let schema = reader.metadata().file_metadata().schema();
     let numeric: Vec<TypePtr> =
@@ -53,6 +57,7 @@ pub(super) fn collect(file: impl ChunkReader + 'static) -> Result<Rows, String> 
     if numeric.is_empty() {
         return Err("it holds no column of numbers".to_owned());
     }
+    stated::check_pages(&pages, reader.metadata(), &numeric, MOST as u64)?;
     let is_count = |field: &&TypePtr| {
         let stamp = field.get_basic_info().logical_type_ref();
         matches!(stamp, Some(LogicalType::Timestamp(stamp)) if matches!(stamp.unit, TimeUnit::NANOS))

@@ -7,6 +7,8 @@ use parquet::file::writer::{SerializedFileWriter, SerializedRowGroupWriter};
 use parquet::schema::parser::parse_message_type;
 use std::sync::Arc;
 
+mod hostile;
+
 const ROWS: usize = 1200;
 const JOINTS: usize = 3;
 
