@@ -59,7 +59,9 @@ fn is_known(word: &str) -> bool {
 fn apart(word: &str) -> String {
     /// Letters before the word at the end of a compound, at least.
     const LEAST: usize = 3;
-    if is_known(word) {
+    /// Bytes of a compound, at most: what is longer is no word.
+    const MOST: usize = 256;
+    if word.len() > MOST || is_known(word) {
         return word.to_owned();
     }
     if word.chars().any(is_ideographic) {
@@ -138,6 +140,12 @@ mod tests {
         ] {
             assert_eq!(simplified(name), words, "{name}");
         }
+    }
+
+    #[test]
+    fn what_is_too_long_to_be_a_word_is_none() {
+        let (short, long) = ("force".repeat(4), "force".repeat(200_000));
+        assert_eq!((simplified(&short), simplified(&long)), ("force force force force".to_owned(), long));
     }
 
     #[test]
