@@ -252,14 +252,11 @@ pub(super) fn named(column: &Column) -> Vec<String> {
     simplified(&column.name).split(' ').map(str::to_owned).collect()
 }
 
-/// Whether a column holds the other one's signal before it was converted to a unit: `Force [V]` beside `Force [N]`.
-pub(super) fn is_raw_form(column: &Column, other: &Column) -> bool {
-    let is_raw_unit = |column: &Column| is_in(column, words::RAW_UNITS);
-    let plain = |column: &Column| -> Vec<String> {
-        let name = named(column);
-        name.into_iter().filter(|word| !words::has(words::RAW, word)).collect()
-    };
-    let has_raw_word = |column: &Column| plain(column).len() < named(column).len();
-    let is_raw = |column: &Column| is_raw_unit(column) || has_raw_word(column);
-    plain(column) == plain(other) && is_raw(column) && !is_raw(other)
+/// The words of a name without those for a signal before it was converted to a unit, and whether the column holds that: `Force [V]` beside
+/// `Force [N]`.
+pub(super) fn plain_form(column: &Column) -> (Vec<String>, bool) {
+    let name = named(column);
+    let plain: Vec<String> = name.iter().filter(|word| !words::has(words::RAW, word)).cloned().collect();
+    let is_raw = is_in(column, words::RAW_UNITS) || plain.len() < name.len();
+    (plain, is_raw)
 }

@@ -6,6 +6,7 @@ use super::pairs::{Commanded, Likeness, pairs};
 use super::spelling::simplified;
 use super::words::{self, Words};
 use crate::table::{Column, DataProblem, Table};
+use std::collections::{BTreeSet, HashSet};
 
 /// The columns that can be input or output.
 pub(super) struct Offer<'a> {
@@ -179,15 +180,20 @@ impl Offer<'_> {
     ///
     /// Words that all signals share say nothing, a command is no output, and a signal in its unit is better than the same one in volts.
     pub(super) fn called(&self, parts: &[Part], taken: Option<usize>) -> Option<usize> {
+        let forms = self.signals.iter().map(|k| guess::plain_form(self.column(*k)));
+        let converted: HashSet<Vec<String>> =
+            forms.filter(|(_, is_raw)| !is_raw).map(|(name, _)| name).collect();
         let is_raw = |k: usize| {
-            self.signals.iter().any(|&other| guess::is_raw_form(self.column(k), self.column(other)))
+            let (name, is_raw) = guess::plain_form(self.column(k));
+            is_raw && converted.contains(&name)
         };
+        let shared = self.shared_words();
         let is_out = parts.contains(&Part::Output);
         let of = |k: usize, part: Part| {
-            let says_nothing = || self.is_shared(k, part);
+            let says_nothing = || self.is_shared(k, part, &shared);
             let is_command = is_out
                 && guess::surety(self.column(k), Part::Command).is_some()
-                && !self.is_shared(k, Part::Command)
+                && !self.is_shared(k, Part::Command, &shared)
                 || is_out && guess::is_of_controller(self.column(k));
             let surety = guess::surety(self.column(k), part).filter(|_| !is_command && !says_nothing())?;
             Some((surety, !is_raw(k), std::cmp::Reverse(k)))
@@ -200,14 +206,25 @@ impl Offer<'_> {
         named.or(found.first()).map(|(.., k)| k.0)
     }
 
+    /// The words that stand in the names of all signals.
+    fn shared_words(&self) -> BTreeSet<String> {
+        let mut names = self.signals.iter().map(|k| guess::named(self.column(*k)));
+        let mut shared: BTreeSet<String> = names.next().unwrap_or_default().into_iter().collect();
+        for name in names {
+            if shared.is_empty() {
+                break;
+            }
+            shared.retain(|word| name.contains(word));
+        }
+        shared
+    }
+
     /// Whether the words by which a column would be this part stand in the names of all signals.
-    fn is_shared(&self, k: usize, part: Part) -> bool {
+    fn is_shared(&self, k: usize, part: Part, shared: &BTreeSet<String>) -> bool {
         let name = guess::named(self.column(k));
         let Some(others) = guess::without(self.column(k), part) else { return false };
         let mut deciding = name.iter().filter(|word| !others.contains(word));
-        let in_all =
-            |word: &String| self.signals.iter().all(|&other| guess::named(self.column(other)).contains(word));
-        self.signals.len() > 1 && deciding.all(in_all)
+        self.signals.len() > 1 && deciding.all(|word| shared.contains(word))
     }
 
     /// By what a column is named on the command line.

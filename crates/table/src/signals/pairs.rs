@@ -4,6 +4,10 @@ use super::guess::{Quantity, quantity};
 use super::spelling::{last_part, simplified};
 use super::words::{self, Words};
 use crate::table::Table;
+use std::collections::{BTreeSet, HashMap};
+
+/// Signals whose names share all words that tell signals apart: more than that share none that does.
+const MOST_ALIKE: usize = 64;
 
 /// How much two names say that they belong together, the most first.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -42,6 +46,11 @@ impl Name {
         Self { column, whole: words(name), last: words(last_part(name)), quantity }
     }
 
+    /// Whether a word of it is one of a list.
+    fn has(&self, list: Words) -> bool {
+        self.whole.iter().chain(&self.last).any(|word| words::has(list, word))
+    }
+
     /// Words for where a machine should be say more than those for what moves it.
     fn is_reference(&self) -> bool {
         self.whole.iter().any(|word| words::has(words::REFERENCE, word))
@@ -53,9 +62,11 @@ impl Name {
 pub(super) fn pairs(table: &Table, commands: &[usize], responses: &[usize]) -> Vec<Commanded> {
     let names = |columns: &[usize]| columns.iter().map(|k| Name::of(table, *k)).collect::<Vec<_>>();
     let (commands, responses) = (names(commands), names(responses));
+    let known = Known::of(&responses);
     let mut found: Vec<(bool, Quantity, bool, usize, Commanded)> = Vec::new();
     for (order, command) in commands.iter().enumerate() {
-        let fitting = responses.iter().filter(|response| response.column != command.column);
+        let fitting = known.beside(command).into_iter().map(|k| &responses[k]);
+        let fitting = fitting.filter(|response| response.column != command.column);
         let ranked = fitting.filter_map(|response| {
             let likeness = likeness(command, response, table)?;
             let shared = command.whole.iter().filter(|word| response.whole.contains(word)).count();
@@ -69,6 +80,57 @@ pub(super) fn pairs(table: &Table, commands: &[usize], responses: &[usize]) -> V
     }
     found.sort_by_key(|(is_plain, quantity, is_effort, order, _)| (*is_plain, *quantity, *is_effort, *order));
     found.into_iter().map(|(.., pair)| pair).collect()
+}
+
+/// Responses by the words that tell signals apart, so that not every command is compared with every signal.
+struct Known {
+    /// By whole names, and by the last parts of their paths.
+    alike: [HashMap<Vec<String>, Vec<usize>>; 2],
+    /// Those with a word by which the same name without it is the command.
+    actual: BTreeSet<usize>,
+}
+
+impl Known {
+    fn of(responses: &[Name]) -> Self {
+        let mut alike = [HashMap::new(), HashMap::new()];
+        for (k, response) in responses.iter().enumerate() {
+            for (alike, name) in alike.iter_mut().zip([&response.whole, &response.last]) {
+                alike.entry(telling(name)).or_insert_with(Vec::new).push(k);
+            }
+        }
+        let is_actual = |k: &usize| responses[*k].has(words::ACTUAL);
+        Self { alike, actual: (0..responses.len()).filter(is_actual).collect() }
+    }
+
+    /// Those that can be the response of a command, in their order.
+    fn beside(&self, command: &Name) -> Vec<usize> {
+        let [whole, last] = [telling(&command.whole), telling(&command.last)];
+        let is_command = command.has(words::COMMAND);
+        let of = |alike: &HashMap<Vec<String>, Vec<usize>>, name: &Vec<String>| {
+            let found = alike.get(name).map_or(&[][..], Vec::as_slice);
+            if found.len() > MOST_ALIKE { Vec::new() } else { found.to_vec() }
+        };
+        let mut found: Vec<usize> = of(&self.alike[0], &whole);
+        found.retain(|k| is_command || self.actual.contains(k));
+        if is_command {
+            found.extend(of(&self.alike[1], &last));
+        }
+        if command.whole.iter().any(|word| word == "d") {
+            let without: Vec<String> = whole.into_iter().filter(|word| word != "d").collect();
+            found.extend(of(&self.alike[0], &without));
+        }
+        found.sort_unstable();
+        found.dedup();
+        found
+    }
+}
+
+/// The words of a name in which a command and its response do not differ.
+fn telling(name: &[String]) -> Vec<String> {
+    const PARTS: [Words; 5] =
+        [words::COMMAND, words::RESPONSE, words::ACTUAL, words::NEUTRAL, words::CONTROLLER];
+    let tells = |word: &&String| !PARTS.iter().any(|list| words::has(list, word));
+    name.iter().filter(tells).collect::<BTreeSet<_>>().into_iter().cloned().collect()
 }
 
 fn likeness(command: &Name, response: &Name, table: &Table) -> Option<Likeness> {

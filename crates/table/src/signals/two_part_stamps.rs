@@ -2,6 +2,7 @@
 
 use super::spelling::simplified;
 use crate::table::{Column, Kind, Table};
+use std::collections::HashMap;
 
 /// What the fraction's column is called behind a shared prefix, and its unit in nanoseconds.
 const FRACTIONS: [(&str, i128); 10] = [
@@ -21,34 +22,39 @@ const SECONDS: [&str; 6] = ["sec", "secs", "seconds", "s", "tv sec", "second"];
 /// Joins both to time stamps in the place of the first; says which.
 pub(super) fn join(table: &mut Table) -> Vec<String> {
     let mut notes = Vec::new();
-    while let Some((seconds, fraction, unit)) = pair(table) {
+    let names: Vec<String> = table.columns.iter().map(|column| simplified(&column.label())).collect();
+    let mut seconds: HashMap<&str, Vec<usize>> = HashMap::new();
+    for (k, name) in names.iter().enumerate() {
+        for prefix in SECONDS.iter().filter_map(|ending| behind(name, ending)) {
+            seconds.entry(prefix).or_default().push(k);
+        }
+    }
+    for (fraction, name) in names.iter().enumerate() {
+        let ending = FRACTIONS.iter().find_map(|(ending, unit)| Some((behind(name, ending)?, *unit)));
+        let Some((prefix, unit)) = ending else { continue };
+        let beside = seconds.get(prefix).map_or(&[][..], Vec::as_slice);
+        let Some(seconds) = pair(table, beside, fraction) else { continue };
         let joined = stamps(&table.columns[seconds], &table.columns[fraction], unit);
-        let names = [seconds, fraction].map(|k| table.columns[k].label());
+        let labels = [seconds, fraction].map(|k| table.columns[k].label());
         table.columns[seconds] = joined;
         // Taken, and no signal.
         table.columns[fraction].kind = Kind::Text;
-        notes.push(format!("`{}` and `{}` are one clock", names[0], names[1]));
+        notes.push(format!("`{}` and `{}` are one clock", labels[0], labels[1]));
     }
     notes
 }
 
-fn pair(table: &Table) -> Option<(usize, usize, i128)> {
-    let full = |k: usize| simplified(&table.columns[k].label());
-    let is_number = |k: &usize| table.columns[*k].kind == Kind::Number;
-    let columns = || (0..table.columns.len()).filter(is_number);
-    columns().find_map(|fraction| {
-        let name = full(fraction);
-        let (prefix, unit) =
-            FRACTIONS.iter().find_map(|(ending, unit)| Some((behind(&name, ending)?, *unit)))?;
-        let is_whole =
-            |k: &usize| table.columns[*k].values.iter().all(|value| value.is_nan() || value.fract() == 0.0);
-        let seconds = columns().filter(|k| *k != fraction && is_whole(k)).find(|k| {
-            SECONDS.iter().any(|ending| behind(&full(*k), ending).is_some_and(|found| found == prefix))
-        })?;
-        let fits =
-            table.columns[fraction].values.iter().all(|value| value.is_nan() || (0.0..1e9).contains(value));
-        (fits && is_whole(&fraction)).then_some((seconds, fraction, unit))
-    })
+/// The first of some columns that holds the seconds of a fraction, if that is one.
+fn pair(table: &Table, beside: &[usize], fraction: usize) -> Option<usize> {
+    let is_number = |k: usize| table.columns[k].kind == Kind::Number;
+    let is_whole =
+        |k: usize| table.columns[k].values.iter().all(|value| value.is_nan() || value.fract() == 0.0);
+    let fits =
+        table.columns[fraction].values.iter().all(|value| value.is_nan() || (0.0..1e9).contains(value));
+    if !is_number(fraction) || !fits || !is_whole(fraction) {
+        return None;
+    }
+    beside.iter().copied().find(|k| *k != fraction && is_number(*k) && is_whole(*k))
 }
 
 /// What stands before an ending of whole words.

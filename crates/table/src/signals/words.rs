@@ -5,7 +5,15 @@ pub(super) type Words = &'static [&'static str];
 
 /// Whether a word is one of a list.
 pub(super) fn has(words: Words, word: &str) -> bool {
-    words.iter().any(|line| line.split(", ").any(|known| known == word))
+    const BETWEEN: &str = ", ";
+    let is_whole = |line: &str, at: usize| {
+        let (before, behind) = (&line[..at], &line[at + word.len()..]);
+        (before.is_empty() || before.ends_with(BETWEEN)) && (behind.is_empty() || behind.starts_with(BETWEEN))
+    };
+    // Columns may be many, and each is looked up again and again: a line is searched for the word, not taken apart into its own.
+    let is_in =
+        |line: &&str| word.len() <= line.len() && line.match_indices(word).any(|(at, _)| is_whole(line, at));
+    !word.contains(BETWEEN) && words.iter().any(is_in)
 }
 
 /// Time, whatever its unit.
@@ -157,3 +165,27 @@ pub(super) const UNITS_OF_FEED: Words = &["V, mV, A, mA, Volt, Volts"];
 /// Words that stand for something by themselves.
 pub(super) const KNOWN: [Words; 10] =
     [TIME, INPUT, COMMAND, RESPONSE, MOTION, DRIVE, ANSWER, OUTPUT, DEVIATION, PART];
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_word_is_in_a_list_whole() {
+        const LIST: Words = &["set point, x value, aa, a", "力, トルク"];
+        for (word, is_in) in [
+            ("set point", true),
+            ("aa", true),
+            ("a", true),
+            ("トルク", true),
+            ("point", false),
+            ("value, aa", false),
+            ("x value, aa", false),
+            ("", false),
+            (",", false),
+            ("ク", false),
+        ] {
+            assert_eq!(has(LIST, word), is_in, "{word}");
+        }
+    }
+}

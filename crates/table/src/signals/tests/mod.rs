@@ -2,6 +2,7 @@
 
 mod clocks;
 mod data;
+mod many;
 mod names;
 
 use super::{ColumnNames, InputForm, Measured, Request, Sampling};
