@@ -17,7 +17,11 @@ const DEEPEST: usize = 64;
 const LONGEST_PAGE: i64 = 1 << 28;
 
 /// Most numbers in lists of a group of rows: those of one row are in memory at once.
-const MOST_IN_LISTS: u64 = 1 << 26;
+const MOST_IN_LISTS: u64 = 1 << 25;
+
+/// Most numbers of a file without a byte, and with each byte of it: numbers that do not change take none.
+const FEW: u64 = 1 << 20;
+const MOST_OF_A_BYTE: u64 = 1 << 13;
 
 /// Sizes of a page.
 #[derive(Default)]
@@ -97,6 +101,7 @@ pub(super) fn check_pages(
     };
     let mut numbers = 0_u64;
     let mut bytes = Length::len(file);
+    let believed = bytes.saturating_mul(MOST_OF_A_BYTE).saturating_add(FEW);
     for group in metadata.row_groups() {
         let mut in_lists = 0_u64;
         for column in group.columns().iter().filter(is_wanted) {
@@ -117,6 +122,9 @@ pub(super) fn check_pages(
         }
         if group.num_rows() < 0 || numbers > most {
             return Err(format!("it holds more than {most} numbers"));
+        }
+        if numbers > believed {
+            return Err(format!("it states {numbers} numbers, more than its bytes can hold"));
         }
     }
     Ok(())

@@ -145,6 +145,7 @@ fn sizes_that_are_not_true_are_refused_before_memory_is_taken() {
         (Stated { is_dictionary: true, values: most, ..NONE }, "2147483647 values in 24 bytes"),
         (Stated { values: most, ..NONE }, "more values than stated"),
         (Stated { rows: 1 << 40, ..NONE }, "it holds more than"),
+        (Stated { rows: 1 << 27, ..NONE }, "more than its bytes can hold"),
         (Stated { rows: -1, ..NONE }, "more"),
     ]
     .into_iter()
