@@ -1,10 +1,40 @@
 //! The words of a name, however it is written.
 
 use super::words::{self, Words};
+use std::cell::RefCell;
+use std::collections::HashMap;
+
+/// Bytes of a compound, at most, and of a name that is kept: what is longer is no word.
+const LONGEST: usize = 256;
+
+/// Names that are kept with their words, at most.
+const KEPT: usize = 1 << 16;
+
+thread_local! {
+    /// Names are looked up for every part of a record, and again beside each other one.
+    static KNOWN: RefCell<HashMap<String, String>> = RefCell::default();
+}
 
 /// Lower case without accents, with single blanks for all that is neither letter nor digit, between words joined like `loadCell`, and between
 /// those of compounds.
 pub(super) fn simplified(name: &str) -> String {
+    if name.len() > LONGEST {
+        return in_words(name);
+    }
+    KNOWN.with_borrow_mut(|known| {
+        if let Some(words) = known.get(name) {
+            return words.clone();
+        }
+        if known.len() >= KEPT {
+            known.clear();
+        }
+        let words = in_words(name);
+        known.insert(name.to_owned(), words.clone());
+        words
+    })
+}
+
+fn in_words(name: &str) -> String {
     let mut simple = String::new();
     let mut before = ' ';
     for letter in name.chars().filter(|letter| !is_accent(*letter)) {
@@ -59,9 +89,7 @@ fn is_known(word: &str) -> bool {
 fn apart(word: &str) -> String {
     /// Letters before the word at the end of a compound, at least.
     const LEAST: usize = 3;
-    /// Bytes of a compound, at most: what is longer is no word.
-    const MOST: usize = 256;
-    if word.len() > MOST || is_known(word) {
+    if word.len() > LONGEST || is_known(word) {
         return word.to_owned();
     }
     if word.chars().any(is_ideographic) {
