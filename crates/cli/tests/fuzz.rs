@@ -183,13 +183,13 @@ fn mat_files() {
 #[test]
 #[cfg(feature = "mdf")]
 fn mdf_files() {
-    fuzz("mdf", targets::mdf::run, 20_000);
+    fuzz("mdf", targets::mdf::run, 3000);
 }
 
 #[test]
 #[cfg(feature = "mcap")]
 fn mcap_files() {
-    fuzz("mcap", targets::mcap::run, 20_000);
+    fuzz("mcap", targets::mcap::run, 3000);
 }
 
 #[test]
