@@ -18,6 +18,9 @@ use std::path::Path;
 const STAMP: [&str; 2] = ["header.stamp.sec", "header.stamp.nanosec"];
 const NANOSECONDS: i128 = 1_000_000_000;
 
+/// Topics that are named in a note.
+const SHOWN: usize = 8;
+
 /// Most columns of a log.
 const MOST_COLUMNS: usize = 1 << 16;
 
@@ -193,8 +196,9 @@ impl Messages {
             notes.push(format!("broken after them ({reason}): what precedes is used"));
         }
         if !self.left.is_empty() {
-            let left = self.left.iter().cloned().collect::<Vec<_>>().join(", ");
-            notes.push(format!("topics whose messages cannot be read left out: {left}"));
+            let shown: Vec<&str> = self.left.iter().take(SHOWN).map(String::as_str).collect();
+            let more = if self.left.len() > SHOWN { ", …" } else { "" };
+            notes.push(format!("topics whose messages cannot be read left out: {}{more}", shown.join(", ")));
         }
         Table {
             path: path.display().to_string(),

@@ -28,10 +28,11 @@ impl Columns {
         let records = numbers.iter().map(|numbers| numbers.rows).collect();
         let mut taken: Vec<(usize, Numbers)> = Vec::new();
         let mut without_clock: Vec<&str> = Vec::new();
+        let mut faults: Vec<String> = Vec::new();
         for (k, numbers) in numbers.into_iter().enumerate() {
             let group = &tree.groups[k];
             if let Some(fault) = numbers.broken.as_ref().filter(|_| !numbers.columns.is_empty()) {
-                notes.push(broken(group, numbers.rows, fault));
+                faults.push(broken(group, numbers.rows, fault));
             }
             let has_signal = numbers.columns.iter().any(|(channel, _)| Some(*channel) != group.clock);
             if numbers.rows == 0 || !has_signal {
@@ -42,6 +43,7 @@ impl Columns {
                 false => without_clock.push(&group.name),
             }
         }
+        notes.extend(some_of(faults));
         if !without_clock.is_empty() {
             let more = if without_clock.len() > SHOWN { ", …" } else { "" };
             without_clock.truncate(SHOWN);
@@ -87,6 +89,16 @@ impl Columns {
         table.places = (1..=rows as u64).map(Place::Row).collect();
         table
     }
+}
+
+/// Some faults of groups, and how many more there are.
+fn some_of(mut faults: Vec<String>) -> Vec<String> {
+    if faults.len() > SHOWN {
+        let more = format!("{} more groups are broken", faults.len() - SHOWN);
+        faults.truncate(SHOWN);
+        faults.push(more);
+    }
+    faults
 }
 
 fn broken(group: &Group, rows: usize, fault: &Fault) -> String {

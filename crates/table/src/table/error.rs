@@ -197,18 +197,45 @@ impl DataProblem {
     }
 }
 
+/// A text as far as it is read: names, cells and lists of columns in it are as long as a file has them.
+fn shortened(text: String) -> String {
+    /// Letters of the names of some hundred columns.
+    const MOST: usize = 6000;
+    match text.char_indices().nth(MOST) {
+        None => text,
+        Some((at, _)) => format!("{}… ({} letters more)", &text[..at], text[at..].chars().count()),
+    }
+}
+
 impl Display for DataError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let problem = shortened(self.problem.to_string());
         match self.place {
-            Some(Place::Line(line)) => write!(f, "{}:{line}: {}", self.path, self.problem),
-            Some(Place::Row(row)) => write!(f, "{}, row {row}: {}", self.path, self.problem),
-            None => write!(f, "{}: {}", self.path, self.problem),
+            Some(Place::Line(line)) => write!(f, "{}:{line}: {problem}", self.path),
+            Some(Place::Row(row)) => write!(f, "{}, row {row}: {problem}", self.path),
+            None => write!(f, "{}: {problem}", self.path),
         }
     }
 }
 
 impl Diagnostic for DataError {
     fn help<'a>(&'a self) -> Option<Box<dyn Display + 'a>> {
-        Some(Box::new(self.problem.remedy()))
+        Some(Box::new(shortened(self.problem.remedy())))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_message_is_as_long_as_it_is_read() {
+        let of = |reason: String| {
+            let problem = DataProblem::NotLog { reason };
+            DataError { path: "a.mcap".to_owned(), place: None, problem }.to_string()
+        };
+        assert!(of("short".to_owned()).ends_with(": short"));
+        let long = of("ü".repeat(1 << 20));
+        assert!(long.chars().count() < 6100 && long.ends_with("letters more)"), "{}", long.len());
     }
 }

@@ -111,6 +111,21 @@ fn many_channels_of_one_name_are_named_apart_in_time() {
 }
 
 #[test]
+fn of_many_broken_groups_some_are_named() {
+    let mut writer = Writer::new("MDF", "4.10");
+    let mut data = 0;
+    for _ in 0..300 {
+        let channels = writer.channels(&[clock(0, 4), X]);
+        let group = writer.group(0, channels, Group { bytes: [9, 0], ..Group::default() });
+        let records = writer.block("DV", &[], &[0; 8]);
+        data = writer.data(data, group, records, 0);
+    }
+    let said = table(&writer.finish(data)).expect_err("data by columns");
+    assert!(said.contains("`group 8`") && said.contains("292 more groups are broken"), "{said}");
+    assert!(!said.contains("`group 9`"), "{said}");
+}
+
+#[test]
 fn changed_bytes_never_end_the_program() {
     let packings: [fn(usize) -> Packing; 3] = [PLAIN, |_| Packing::Deflated, Packing::Turned];
     let logs = packings.map(|packing| log_of(packing, 100));
