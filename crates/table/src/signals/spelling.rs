@@ -4,29 +4,28 @@ use super::words::{self, Words};
 use std::cell::RefCell;
 use std::collections::HashMap;
 
-/// Bytes of a compound, at most, and of a name that is kept: what is longer is no word.
+/// Bytes of a compound, at most: what is longer is no word.
 const LONGEST: usize = 256;
 
-/// Names that are kept with their words, at most.
-const KEPT: usize = 1 << 16;
+/// Bytes of names that are kept with their words, at most.
+const KEPT: usize = 1 << 24;
 
 thread_local! {
-    /// Names are looked up for every part of a record, and again beside each other one.
-    static KNOWN: RefCell<HashMap<String, String>> = RefCell::default();
+    /// Names with their words, and their bytes: they are looked up for every part of a record, and again beside each other one.
+    static KNOWN: RefCell<(HashMap<String, String>, usize)> = RefCell::default();
 }
 
 /// Lower case without accents, with single blanks for all that is neither letter nor digit, between words joined like `loadCell`, and between
 /// those of compounds.
 pub(super) fn simplified(name: &str) -> String {
-    if name.len() > LONGEST {
-        return in_words(name);
-    }
-    KNOWN.with_borrow_mut(|known| {
+    KNOWN.with_borrow_mut(|(known, bytes)| {
         if let Some(words) = known.get(name) {
             return words.clone();
         }
-        if known.len() >= KEPT {
+        *bytes += name.len();
+        if *bytes > KEPT {
             known.clear();
+            *bytes = name.len();
         }
         let words = in_words(name);
         known.insert(name.to_owned(), words.clone());
