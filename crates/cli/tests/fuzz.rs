@@ -183,7 +183,7 @@ fn mat_files() {
 #[test]
 #[cfg(feature = "mdf")]
 fn mdf_files() {
-    fuzz("mdf", targets::mdf::run, 3000);
+    fuzz("mdf", targets::mdf::run, 15_000);
 }
 
 #[test]
