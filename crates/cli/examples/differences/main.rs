@@ -101,5 +101,5 @@ fn compared(pair: &Pair, seed: u64) -> miette::Result<Counted> {
 
 /// The name of a row without the number of its pole.
 fn unnumbered(what: &str) -> &str {
-    what.trim_end_matches(|c: char| c.is_ascii_digit() || c == ' ')
+    what.trim_end_matches(|c: char| c.is_ascii_digit()).trim_end_matches('_')
 }
