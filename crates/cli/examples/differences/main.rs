@@ -82,13 +82,15 @@ fn compared(pair: &Pair, seed: u64) -> miette::Result<Counted> {
     counted.same = others.clone().count();
     counted.shown_same = others.filter(|row| !row.differs).count();
     let mut error = None;
-    if let (true, Some(row), Some(truth)) = (right, first, pair.truth()) {
-        let found = if row.what.starts_with("delay") { row.in_a } else { row.in_b };
-        // The zero of both sides is known as their distance.
-        let found = if row.what.starts_with("offset") { row.in_b - row.in_a } else { found };
+    if let (true, Some(row), Some([simulator, machine])) = (right, first, pair.truth()) {
+        let deviation = match row.what.as_str() {
+            // Only the distance of two zeros or delays means anything.
+            "offset" | "delay" => (row.in_b - row.in_a) - (machine - simulator),
+            _ => row.in_b - machine,
+        };
         counted.valued = 1;
-        error = Some((found - truth) / row.se);
-        counted.covered = usize::from((found - truth).abs() <= 1.96 * row.se);
+        error = Some(deviation / row.se);
+        counted.covered = usize::from(deviation.abs() <= 1.96 * row.se);
     }
     if !right || counted.covered < counted.valued || counted.shown_same < counted.same {
         let shown = rows.iter().filter(|row| row.differs);

@@ -198,29 +198,28 @@ impl Pair {
         Self { kind, simulator, machine, noise: uniform(rng, 0.003, 0.02), seed }
     }
 
-    /// The machine's value of the quantity in which the sides differ, in the unit of its row; none where nothing differs. The machine's delay is its
-    /// own origin, and the simulator's value is taken.
-    pub(crate) fn truth(&self) -> Option<f64> {
-        let Self { machine, simulator, .. } = self;
-        let of_poles = |constant, frequency, damping| match machine.poles {
+    /// The values of simulator and machine in which they differ, in the unit of their row; none where nothing differs.
+    pub(crate) fn truth(&self) -> Option<[f64; 2]> {
+        let row = self.kind.row()?;
+        let of_poles = |side: &Side, constant, frequency, damping| match side.poles {
             Poles::Real(t) => constant * t,
             Poles::Pair(f, zeta) => frequency * f + damping * zeta,
         };
-        self.kind.row().map(|row| match row {
-            // Beside the other factors the row is in the machine's output.
-            "offset" => machine.offset - simulator.offset,
-            "gain" => machine.gain,
-            "delay" => (simulator.delay as f64 - machine.delay as f64) / RATE,
-            "friction" => machine.friction,
-            "stiffness" => machine.stiffness,
-            "curvature" => machine.curvature,
-            "time_constant" => of_poles(1.0, 0.0, 0.0),
-            "frequency" => of_poles(0.0, 1.0, 0.0),
-            "damping_ratio" => of_poles(0.0, 0.0, 1.0),
-            "play" => machine.play,
-            "damping" => machine.viscosity,
-            _ => machine.inertia,
-        })
+        let of = |side: &Side| match row {
+            "offset" => side.offset,
+            "gain" => side.gain,
+            "delay" => side.delay as f64 / RATE,
+            "friction" => side.friction,
+            "stiffness" => side.stiffness,
+            "curvature" => side.curvature,
+            "time_constant" => of_poles(side, 1.0, 0.0, 0.0),
+            "frequency" => of_poles(side, 0.0, 1.0, 0.0),
+            "damping_ratio" => of_poles(side, 0.0, 0.0, 1.0),
+            "play" => side.play,
+            "damping" => side.viscosity,
+            _ => side.inertia,
+        };
+        Some([of(&self.simulator), of(&self.machine)])
     }
 
     /// The machine's records with the predictions of the simulator; the last third is held out.
