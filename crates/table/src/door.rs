@@ -36,11 +36,14 @@ pub fn read_within(path: &Path, most: u64) -> Result<Vec<u8>, FileError> {
         .ok_or_else(|| FileError::TooLong { path: path.display().to_string(), most })
 }
 
+/// A file that was opened here.
+pub(crate) type Opened = File;
+
 /// Opens a file that is no stream.
 ///
 /// # Errors
 /// [`FileError`] if there is no file, it is a folder, or cannot be opened.
-pub(crate) fn open(path: &Path) -> Result<File, FileError> {
+pub(crate) fn open(path: &Path) -> Result<Opened, FileError> {
     let shown = || path.display().to_string();
     if path.is_dir() {
         return Err(FileError::Directory { help: instead_of_folder(path), path: shown() });

@@ -1,20 +1,19 @@
 //! Tables in Apache Parquet, as data frames and the episodes of LeRobot are stored: every number is a column, those of a list are called
 //! `action[2]`. Whatever else is in the file, pictures and words, is not read.
 
+use self::magic::MAGIC;
 use crate::table::{DataError, DataProblem, TableError};
 use std::path::Path;
 
 #[cfg(feature = "parquet")]
 mod compact;
+mod magic;
 #[cfg(feature = "parquet")]
 mod rows;
 #[cfg(feature = "parquet")]
 mod stated;
 #[cfg(all(test, feature = "parquet"))]
 mod tests;
-
-/// How such a file begins, and ends.
-const MAGIC: &[u8] = b"PAR1";
 
 /// Whether a file is one: by its ending, or its first bytes.
 pub(crate) fn is_parquet(path: &Path, bytes: &[u8]) -> bool {

@@ -4,13 +4,12 @@ use super::cdr;
 use super::definition::{Definition, LONGEST_NAME};
 use super::unreadable;
 use crate::contained::contained;
-use crate::door::open;
+use crate::door::{Opened, open};
 use crate::table::{Column, Kind, Place, Table, TableError, empty_column};
 use mcap::io::MessageReader;
 use mcap::sans_io::LinearReaderOptions;
 use mcap::{Channel, Message};
 use std::collections::{BTreeMap, BTreeSet, HashMap};
-use std::fs::File;
 use std::io::BufReader;
 use std::path::Path;
 
@@ -102,10 +101,10 @@ pub(super) fn collect(
     }
 }
 
-type Reader = MessageReader<BufReader<File>>;
+type Reader = MessageReader<BufReader<Opened>>;
 
 /// A reader of a log, which refuses records that are much longer than the file: their length is taken on trust else, and so much memory with it.
-fn reader(file: File) -> Reader {
+fn reader(file: Opened) -> Reader {
     /// A compressed record is so many times as long as the file, at most.
     const RATIO: u64 = 64;
     /// Bytes of a record that any file may have: a picture of four million points in one colour.

@@ -1,6 +1,7 @@
 //! Numbers, row by row.
 
 use super::stated;
+use crate::door::Opened;
 use crate::table::{Column, Kind, Place, Table, empty_column};
 use parquet::basic::{LogicalType, TimeUnit, Type as Physical};
 use parquet::errors::ParquetError;
@@ -10,7 +11,6 @@ use parquet::record::{Field, Row};
 use parquet::schema::types::{Type, TypePtr};
 use std::collections::BTreeSet;
 use std::fmt::Write;
-use std::fs::File;
 use std::path::Path;
 
 /// Most numbers of a list that are columns: more are pictures.
@@ -46,7 +46,7 @@ pub(super) struct Rows {
 ///
 /// # Errors
 /// Where it is no such file, has no numbers, or is broken before its first row.
-pub(super) fn collect(file: File) -> Result<Rows, String> {
+pub(super) fn collect(file: Opened) -> Result<Rows, String> {
     let worded = |error: ParquetError| worded(&error);
     stated::check_schema(&file)?;
     let pages = file.try_clone().map_err(|error| error.to_string())?;

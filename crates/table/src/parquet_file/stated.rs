@@ -1,11 +1,12 @@
 //! The sizes that a file states: the library that reads Parquet takes memory by them, so that they are looked at before it does.
 
 use super::compact::{Compact, LIST, STRUCT, Unread};
+use super::magic::MAGIC;
+use crate::door::Opened;
 use parquet::file::metadata::{ColumnChunkMetaData, ParquetMetaData};
 use parquet::file::reader::{ChunkReader, Length};
 use parquet::schema::types::TypePtr;
 use std::collections::BTreeSet;
-use std::fs::File;
 
 /// Bytes after the list of parts: its length, and the sign of the format.
 const TAIL: u64 = 8;
@@ -36,13 +37,13 @@ struct Page {
 ///
 /// # Errors
 /// Where it cannot be true. A file that has none is left to the library.
-pub(super) fn check_schema(file: &File) -> Result<(), String> {
+pub(super) fn check_schema(file: &Opened) -> Result<(), String> {
     let length = Length::len(file);
     let Some(tail) = length.checked_sub(TAIL).and_then(|at| file.get_bytes(at, TAIL as usize).ok()) else {
         return Ok(());
     };
     let parts = u64::from(u32::from_le_bytes(tail[..4].try_into().unwrap_or_default()));
-    let Some(begin) = (length - TAIL).checked_sub(parts).filter(|_| tail.ends_with(super::MAGIC)) else {
+    let Some(begin) = (length - TAIL).checked_sub(parts).filter(|_| tail.ends_with(MAGIC)) else {
         return Ok(());
     };
     let parts = file.get_bytes(begin, parts as usize).map_err(|error| error.to_string())?;
@@ -90,7 +91,7 @@ fn schema(source: &mut Compact<&[u8]>) -> Result<(), Unread> {
 /// # Errors
 /// Where there are more numbers than `most`, or than can be there.
 pub(super) fn check_pages(
-    file: &File,
+    file: &Opened,
     metadata: &ParquetMetaData,
     wanted: &[TypePtr],
     most: u64,
@@ -131,7 +132,7 @@ pub(super) fn check_pages(
 }
 
 /// Looks at the pages in so many bytes, which have so many values.
-fn check_chunk(file: &File, mut at: u64, mut left: u64, mut values: i64) -> Result<(), String> {
+fn check_chunk(file: &Opened, mut at: u64, mut left: u64, mut values: i64) -> Result<(), String> {
     while left > 0 {
         let Ok(source) = file.get_read(at) else { return Ok(()) };
         let mut source = Compact::of(source, Length::len(file));

@@ -197,14 +197,19 @@ impl DataProblem {
     }
 }
 
-/// A text as far as it is read: names, cells and lists of columns in it are as long as a file has them.
+/// A text as far as it is read, its beginning and its end: names, cells and lists of columns in it are as long as a file has them.
 fn shortened(text: String) -> String {
-    /// Letters of the names of some hundred columns.
-    const MOST: usize = 6000;
-    match text.char_indices().nth(MOST) {
-        None => text,
-        Some((at, _)) => format!("{}… ({} letters more)", &text[..at], text[at..].chars().count()),
+    /// Letters of the names of some hundred columns, and of the end, where sentences say what is wrong.
+    const FIRST: usize = 5000;
+    const LAST: usize = 1000;
+    let between = text.chars().count().saturating_sub(FIRST + LAST);
+    if between == 0 {
+        return text;
     }
+    let of = |letters: &mut dyn Iterator<Item = char>| letters.collect::<String>();
+    let mut letters = text.chars();
+    let first = of(&mut letters.by_ref().take(FIRST));
+    format!("{first}… ({between} letters left out) …{}", of(&mut letters.skip(between)))
 }
 
 impl Display for DataError {
@@ -236,6 +241,8 @@ mod tests {
         };
         assert!(of("short".to_owned()).ends_with(": short"));
         let long = of("ü".repeat(1 << 20));
-        assert!(long.chars().count() < 6100 && long.ends_with("letters more)"), "{}", long.len());
+        assert!(long.chars().count() < 6100 && long.contains("letters left out"), "{}", long.len());
+        let row = |letters: usize| format!("{} is not a number", "x".repeat(letters));
+        assert!(of(row(70_000)).ends_with("x is not a number") && of(row(5800)).contains(&row(5800)));
     }
 }
