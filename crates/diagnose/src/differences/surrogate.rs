@@ -80,15 +80,18 @@ impl Search<'_> {
     fn grown(&self, start: &System) -> (System, f64) {
         let [one, other] = [retimed(start), start.clone()].map(|start| self.fit(&start, Effort::FINAL));
         let (mut system, mut deviance) = if one.1 < other.1 { one } else { other };
+        let small = SMALL_MISFIT * self.samples as f64;
         for _ in 0..MOST_EFFECTS {
-            if deviance < SMALL_MISFIT * self.samples as f64 {
+            if deviance < small {
                 break;
             }
-            let now = Quantity::coordinates(&system).len();
+            let (now, terms) = (Quantity::coordinates(&system).len(), system.terms.len());
             let tried = self.larger(&system).into_iter().map(|start| {
                 let (with, deviance) = self.fit(&start, Effort::SEARCH);
                 let more = Quantity::coordinates(&with).len().saturating_sub(now);
-                (deviance + price(self.samples, more), with, deviance)
+                // Where borders and poles are enough, no effect stands for their shape: it costs nothing.
+                let is_enough = deviance < small && with.terms.len() == terms;
+                (if is_enough { 0.0 } else { deviance + price(self.samples, more) }, with, deviance)
             });
             let Some((worth, best, least)) = tried.min_by(|x, y| x.0.total_cmp(&y.0)) else { break };
             if worth > deviance || least > LEAST_GAIN * deviance {
@@ -115,11 +118,11 @@ impl Search<'_> {
         }
     }
 
-    /// The system with one effect more, with one pole more, or with borders on twice as many knots; each with reversals at samples and between them.
+    /// The system with one effect more, with one pole more, or with borders on two or four times as many knots; each with reversals at samples and between.
     fn larger(&self, system: &System) -> Vec<System> {
         let (low, high) = system.borders.range();
-        let knots = system.borders.count() as f64 / 2.0;
-        let borders = system.borders.refined(0.5 * (high - low) / (knots - 1.0).max(1.0));
+        let apart = (high - low) / (system.borders.count() as f64 / 2.0 - 1.0).max(1.0);
+        let refined = |share| System { borders: system.borders.refined(share * apart), ..system.clone() };
         let with = |term| {
             let mut with = system.clone();
             with.terms.push(term);
@@ -127,8 +130,7 @@ impl Search<'_> {
         };
         let effects = self.candidates(system).into_iter().map(with);
         let linear = system.linear.larger().into_iter().map(|linear| System { linear, ..system.clone() });
-        let larger: Vec<System> =
-            effects.chain(linear).chain([System { borders, ..system.clone() }]).collect();
+        let larger: Vec<System> = effects.chain(linear).chain([0.5, 0.25].map(refined)).collect();
         let retimed: Vec<System> = larger.iter().chain([system]).map(retimed).collect();
         [larger, retimed].concat()
     }
@@ -240,12 +242,9 @@ pub(super) fn own_errors(
 
 /// Whether a system has a quantity.
 fn has(system: &System, quantity: Quantity) -> bool {
-    match quantity {
-        Quantity::TimeConstant(_) | Quantity::Frequency(_) | Quantity::Damping(_) => {
-            Quantity::all(system).contains(&quantity)
-        }
-        _ => true,
-    }
+    let is_of_poles =
+        matches!(quantity, Quantity::TimeConstant(_) | Quantity::Frequency(_) | Quantity::Damping(_));
+    !is_of_poles || Quantity::all(system).contains(&quantity)
 }
 
 /// What each term would gain in `Σρ` once its change of the run, by finite difference, is scaled freely, beside the given quantities.

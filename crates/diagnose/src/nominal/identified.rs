@@ -8,7 +8,7 @@ use crate::nominal::given::scaled;
 use crate::nominal_model::NominalModel;
 use crate::records::dataset::Dataset;
 use switchback_model::hysteresis::Branch;
-use switchback_model::rig::{Rig, Usage};
+use switchback_model::rig::Rig;
 
 /// Order and lead by the identifier, and its model.
 #[derive(Debug)]
@@ -20,8 +20,7 @@ pub(crate) struct Identified {
 impl Identified {
     /// Of the fit records of a rig; none where they show no model, or one without poles.
     pub(crate) fn of(rig: &Rig) -> Option<Self> {
-        let records = rig.records.iter().filter(|r| r.usage == Usage::Fit).map(|r| &r.record);
-        let records: Vec<_> = records.collect();
+        let records: Vec<_> = rig.fit_records().map(|r| &r.record).collect();
         let of = |delay| nominal(&records, (None, delay)).ok()?;
         let free = of(None)?;
         // No machine answers before its input: effects hide behind a model that does.
