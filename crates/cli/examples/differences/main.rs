@@ -1,13 +1,14 @@
 //! Compares simulators with machines that differ in one known quantity, and counts how often the right one is found.
 //!
 //! `cargo run --example differences -- --pairs 200`: pairs of twenty kinds in turn – twelve parameters, three effects that one of them lacks, each
-//! way, and two kinds where nothing differs. `--first N` is the first seed (1). Prints one line a pair where something is wrong, and a table.
+//! way, and two kinds where nothing differs. `--first N` is the first seed (1), `--words` prints each diagnosis. Prints one line a pair where something is
+//! wrong, and a table.
 
 mod pair;
 
 use pair::{Kind, Pair};
 use switchback_diagnose::Settings;
-use switchback_io::diagnosis::{self, ReportedDifference, Subject, Units};
+use switchback_io::diagnosis::{self, Report, ReportedDifference, Subject, Units};
 
 /// What is counted of a kind.
 #[derive(Debug, Clone, Copy, Default)]
@@ -48,10 +49,16 @@ fn main() -> miette::Result<()> {
         at.and_then(|k| wishes.get(k + 1)).and_then(|w| w.parse().ok()).unwrap_or(otherwise)
     };
     let (first, pairs) = (of("--first", 1), of("--pairs", 20));
+    let in_full = wishes.iter().any(|w| w == "--words");
     let mut counted = [Counted::default(); Kind::ALL.len()];
     for seed in first..first + pairs {
         let at = (seed % Kind::ALL.len() as u64) as usize;
-        counted[at].add(compared(&Pair::draw(Kind::ALL[at], seed), seed)?);
+        let pair = Pair::draw(Kind::ALL[at], seed);
+        let report = diagnosis::examine(Subject::choose(pair.rig(), None)?, &Settings::default())?;
+        if in_full {
+            println!("{}", switchback_report::diagnosis::words(&report, None));
+        }
+        counted[at].add(compared(&pair, &report, seed));
     }
     println!("{:<16} {:>5} {:>6} {:>13} {:>14}", "differs", "pairs", "right", "in interval", "same");
     let mut all = Counted::default();
@@ -64,8 +71,7 @@ fn main() -> miette::Result<()> {
 }
 
 /// Compares one pair.
-fn compared(pair: &Pair, seed: u64) -> miette::Result<Counted> {
-    let report = diagnosis::examine(Subject::choose(pair.rig(), None)?, &Settings::default())?;
+fn compared(pair: &Pair, report: &Report, seed: u64) -> Counted {
     let units = Units::of(&report.rig);
     let rows: Vec<ReportedDifference> = (report.diagnosis.differences.iter())
         .flat_map(|found| found.rows.iter().map(|row| ReportedDifference::of(row, &units)))
@@ -98,7 +104,7 @@ fn compared(pair: &Pair, seed: u64) -> miette::Result<Counted> {
             shown.map(|r| format!("{} {:.4e} → {:.4e} ± {:.1e}", r.what, r.in_a, r.in_b, r.se)).collect();
         println!("{seed} {:?} {:?} off by {error:?}: {}", pair.kind, pair.truth(), shown.join(", "));
     }
-    Ok(counted)
+    counted
 }
 
 /// The name of a row without the number of its pole.
