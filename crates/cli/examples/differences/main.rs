@@ -7,6 +7,7 @@
 mod pair;
 
 use pair::{Kind, Pair};
+use rayon::prelude::*;
 use switchback_diagnose::Settings;
 use switchback_io::diagnosis::{self, Report, ReportedDifference, Subject, Units};
 
@@ -50,15 +51,22 @@ fn main() -> miette::Result<()> {
     };
     let (first, pairs) = (of("--first", 1), of("--pairs", 20));
     let in_full = wishes.iter().any(|w| w == "--words");
-    let mut counted = [Counted::default(); Kind::ALL.len()];
-    for seed in first..first + pairs {
-        let at = (seed % Kind::ALL.len() as u64) as usize;
-        let pair = Pair::draw(Kind::ALL[at], seed);
+    let seeds: Vec<u64> = (first..first + pairs).collect();
+    let one = |&seed: &u64| -> miette::Result<_> {
+        let pair = Pair::draw(Kind::of(seed), seed);
         let report = diagnosis::examine(Subject::choose(pair.rig(), None)?, &Settings::default())?;
+        Ok((compared(&pair, &report, seed), report))
+    };
+    let mut counted = [Counted::default(); Kind::ALL.len()];
+    for (seed, done) in seeds.iter().zip(seeds.par_iter().map(one).collect::<Vec<_>>()) {
+        let ((one, wrong), report) = done?;
         if in_full {
             println!("{}", switchback_report::diagnosis::words(&report, None));
         }
-        counted[at].add(compared(&pair, &report, seed));
+        if let Some(wrong) = wrong {
+            println!("{wrong}");
+        }
+        counted[Kind::place(*seed)].add(one);
     }
     println!("{:<16} {:>5} {:>6} {:>13} {:>14}", "differs", "pairs", "right", "in interval", "same");
     let mut all = Counted::default();
@@ -70,8 +78,8 @@ fn main() -> miette::Result<()> {
     Ok(())
 }
 
-/// Compares one pair.
-fn compared(pair: &Pair, report: &Report, seed: u64) -> Counted {
+/// What is counted of one pair, and what is wrong with it.
+fn compared(pair: &Pair, report: &Report, seed: u64) -> (Counted, Option<String>) {
     let units = Units::of(&report.rig);
     let rows: Vec<ReportedDifference> = (report.diagnosis.differences.iter())
         .flat_map(|found| found.rows.iter().map(|row| ReportedDifference::of(row, &units)))
@@ -98,13 +106,14 @@ fn compared(pair: &Pair, report: &Report, seed: u64) -> Counted {
         error = Some(deviation / row.se);
         counted.covered = usize::from(deviation.abs() <= 1.96 * row.se);
     }
-    if !right || counted.covered < counted.valued || counted.shown_same < counted.same {
+    let is_wrong = !right || counted.covered < counted.valued || counted.shown_same < counted.same;
+    let wrong = is_wrong.then(|| {
         let shown = rows.iter().filter(|row| row.differs);
         let shown: Vec<String> =
             shown.map(|r| format!("{} {:.4e} → {:.4e} ± {:.1e}", r.what, r.in_a, r.in_b, r.se)).collect();
-        println!("{seed} {:?} {:?} off by {error:?}: {}", pair.kind, pair.truth(), shown.join(", "));
-    }
-    counted
+        format!("{seed} {:?} {:?} off by {error:?}: {}", pair.kind, pair.truth(), shown.join(", "))
+    });
+    (counted, wrong)
 }
 
 /// The name of a row without the number of its pole.

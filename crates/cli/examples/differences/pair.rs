@@ -71,6 +71,16 @@ impl Kind {
         Self::Same,
     ];
 
+    /// The place of the kind of a seed: kinds take turns.
+    pub(crate) fn place(seed: u64) -> usize {
+        (seed % Self::ALL.len() as u64) as usize
+    }
+
+    /// The kind of a seed.
+    pub(crate) fn of(seed: u64) -> Self {
+        Self::ALL[Self::place(seed)]
+    }
+
     /// The row that must come first; none where nothing differs.
     pub(crate) fn row(self) -> Option<&'static str> {
         match self {
@@ -138,7 +148,7 @@ fn factor(rng: &mut ChaCha8Rng) -> f64 {
 
 impl Side {
     fn draw(rng: &mut ChaCha8Rng, kind: Kind) -> Self {
-        let pair = Poles::Pair(uniform(rng, 6.0, 20.0), uniform(rng, 0.2, 0.9));
+        let pair = Poles::Pair(uniform(rng, 6.0, 20.0), uniform(rng, 0.2, 0.55));
         let real = Poles::Real(uniform(rng, 0.01, 0.08));
         let is_pair = match kind {
             Kind::TimeConstant => false,

@@ -23,6 +23,8 @@ pub(crate) fn sections() -> miette::Result<Quotes> {
     let [measures, rules] = blind.splitn(2, "\n\n").collect::<Vec<_>>()[..] else {
         return Err(miette!("reports/blind-sample/summary.txt holds no two tables"));
     };
+    let pairs = text("reports/differences/pairs.txt")?;
+    let table = pairs.find("differs ").map_or("", |at| &pairs[at..]);
     let quotes = [
         ("inferred", inferred("scenarios/data/bench.csv")?),
         ("bench", verdict("reports/bench/verdict.txt")?),
@@ -37,6 +39,7 @@ pub(crate) fn sections() -> miette::Result<Quotes> {
         ("gap-mr-damper", verdict("reports/measured-rigs/gap-mr-damper.txt")?),
         ("blind-short", block(&rows(measures, &BLIND_SHORT)?)),
         ("blind", block(&format!("{measures}\n\n{}", rules.trim_end()))),
+        ("differences", block(table)),
         ("speed-short", ratios()?),
         ("speed", without_title(&text("reports/speed/table.md")?).to_owned()),
     ];
