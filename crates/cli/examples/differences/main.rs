@@ -1,7 +1,7 @@
 //! Compares simulators with machines that differ in one known quantity, and counts how often the right one is found.
 //!
-//! `cargo run --example differences -- --pairs 200`: pairs of twenty kinds in turn – twelve parameters, three effects that one of them lacks, each
-//! way, and two kinds where nothing differs. `--first N` is the first seed (1), `--words` prints each diagnosis. Prints one line a pair where something is
+//! `cargo run --example differences -- --pairs 200`: pairs of twenty kinds in turn – twelve parameters, three effects that either of them lacks,
+//! and two kinds where nothing differs. `--first N` is the first seed (1), `--words` prints each diagnosis. Prints one line a pair where something is
 //! wrong, and a table.
 
 mod pair;

@@ -4,7 +4,7 @@
 //! p = v but for the play,   u = k·p + c·p² ± F + d·dv/dt + m·d²v/dt²,   y = gain·(zero + G(u(t − delay))),   G of unit gain at rest
 //! ```
 //!
-//! `G` is one real pole or a pair of poles, its input held between samples. The machine's sensor is noisy, the simulator's output is not.
+//! `G` is one real pole or a pair of poles behind a zero-order hold. The machine's sensor is noisy, the simulator's output is not.
 
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};
@@ -313,7 +313,7 @@ impl Side {
             curve + side * self.friction + self.viscosity * v + self.inertia * a
         };
         let u: Vec<f64> = (0..SAMPLES).map(force).collect();
-        let [a, b] = self.poles.held();
+        let [a, b] = self.poles.discrete();
         let mut y = vec![u[0]; SAMPLES];
         for t in 1..SAMPLES {
             let u = |lag: usize| u[t.saturating_sub(lag + self.delay)];
@@ -325,8 +325,8 @@ impl Side {
 }
 
 impl Poles {
-    /// Coefficients of lags 1 and 2 of output and input, the input held between samples.
-    fn held(self) -> [[f64; 2]; 2] {
+    /// Coefficients of lags 1 and 2 of output and input, behind a zero-order hold.
+    fn discrete(self) -> [[f64; 2]; 2] {
         match self {
             Self::Real(constant) => {
                 let pole = (-1.0 / (RATE * constant)).exp();

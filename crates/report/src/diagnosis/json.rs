@@ -3,6 +3,7 @@
 use super::differences::{Difference, written};
 use super::posterior::Posterior;
 use super::sentences;
+use super::shift::Shift;
 use schemars::{JsonSchema, Schema};
 use serde::{Deserialize, Serialize};
 use switchback_diagnose::fitted::{self, Shares};
@@ -10,7 +11,7 @@ use switchback_diagnose::{
     Candidate, Cell, CellInterval, Diagnosis, Effect, ExperimentKind, Figure, FittedParameter, Horizon,
     HorizonGain, Stage, Status, Together,
 };
-use switchback_io::diagnosis::{Estimate, Report, Source, Units, reported};
+use switchback_io::diagnosis::{Report, Source, Units, reported};
 use switchback_io::output::{stamped, stamped_schema};
 
 /// Name and version of the layout.
@@ -101,26 +102,6 @@ pub(crate) struct Verdict {
     /// How many times larger the error is on held-out records that were taken under other conditions than the fit records.
     #[schemars(range(min = 0))]
     pub held_out_error_ratio: Option<f64>,
-}
-
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub(crate) struct Shift {
-    /// The recording.
-    pub record: String,
-    /// The constant that its output is above, output units; null where its zero is the same.
-    pub offset: Option<Estimated>,
-    /// The factor by which its output is larger; null where its gain is the same.
-    pub gain: Option<Estimated>,
-}
-
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub(crate) struct Estimated {
-    /// The estimate.
-    pub value: f64,
-    /// Half the width of its 95 % interval, by a block bootstrap.
-    pub half_width: f64,
 }
 
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -457,16 +438,11 @@ pub fn json(report: &Report) -> String {
         probability_unexplained: diagnosis.probability_unexplained,
         second_opinion: diagnosis.second_opinion.as_ref().map(second_opinion),
         posterior: diagnosis.classification.as_ref().map(Posterior::of),
-        shifts: report.shifts.iter().map(shift).collect(),
+        shifts: report.shifts.iter().map(Shift::of).collect(),
         limitations: diagnosis.limitations.clone(),
         version: env!("CARGO_PKG_VERSION").to_owned(),
     };
     stamped(SCHEMA, &page)
-}
-
-fn shift(shift: &switchback_io::diagnosis::Shift) -> Shift {
-    let written = |e: Estimate| Estimated { value: e.value, half_width: e.half_width };
-    Shift { record: shift.record.clone(), offset: shift.offset.map(written), gain: shift.gain.map(written) }
 }
 
 fn second_opinion(reported: &fitted::SecondOpinion) -> SecondOpinion {

@@ -7,6 +7,7 @@ mod place;
 pub(crate) mod posterior;
 mod probability;
 mod sentences;
+mod shift;
 mod why;
 mod words;
 

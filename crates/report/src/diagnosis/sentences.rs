@@ -2,9 +2,10 @@
 
 use super::place;
 use super::probability::probability;
+use super::shift;
 use switchback_diagnose::posterior::Classification;
 use switchback_diagnose::{Diagnosis, Effect, FittedParameter, Gap, Status, Verdict};
-use switchback_io::diagnosis::{Estimate, Report, Shift, Source, Units, reported};
+use switchback_io::diagnosis::{Report, Source, Units, reported};
 use switchback_io::diagnosis::{digits, whole_percent, with_interval};
 
 /// Least gain of the prediction, nats per sample, that is worth a sentence.
@@ -20,7 +21,7 @@ const MANY: f64 = 10.0;
 pub(super) fn verdict(report: &Report) -> Vec<String> {
     let units = Units::of(&report.rig);
     let diagnosis = &report.diagnosis;
-    let mut sentences: Vec<String> = report.shifts.iter().map(|s| shifted(s, &units)).collect();
+    let mut sentences: Vec<String> = report.shifts.iter().map(|s| shift::sentence(s, &units)).collect();
     sentences.push(size(report));
     let shows = !matches!(diagnosis.verdict.status, Status::None);
     // Of records taken under other conditions no model of the fit records says anything.
@@ -42,27 +43,6 @@ pub(super) fn verdict(report: &Report) -> Vec<String> {
     }
     sentences.extend(augments.then(|| remainder(diagnosis, &units)));
     sentences
-}
-
-/// A held-out recording with another zero or gain.
-fn shifted(shift: &Shift, units: &Units) -> String {
-    let value = |e: &Estimate, x: f64| with_interval(x, [x - e.half_width, x + e.half_width]);
-    let offset = shift.offset.as_ref().map(|e| {
-        let side = if e.value < 0.0 { "below" } else { "above" };
-        format!("lies {} {} {side}", value(e, e.value.abs()), units.output)
-    });
-    let gain = shift.gain.as_ref().map(|e| format!("is {} times", value(e, e.value)));
-    let (differs, is) = match (gain, offset) {
-        (Some(gain), Some(offset)) => (format!("{gain} as large and {offset}"), "gain and zero are others"),
-        (Some(gain), None) if shift.gain.is_some_and(|g| g.value < 0.0) => (gain, "sign is another"),
-        (Some(gain), None) => (gain, "gain is another"),
-        (None, offset) => (offset.unwrap_or_default(), "zero is another"),
-    };
-    format!(
-        "The output of {} {differs} that of the model of the fit records: its {is}. All that follows is without this \
-         difference.",
-        shift.record
-    )
 }
 
 /// Share of the output's variance below which a gap is none: a thousandth of its spread, which a converter of ten bits rounds away.
