@@ -45,6 +45,8 @@ fn an_unknown_key_is_named_with_what_was_meant() {
 fn a_missing_key_is_named() {
     refused_rig(1, "", &["rig.toml:1:1", "missing key `name`", "add `name = …`"]);
     refused_rig(9, "", &["rig.toml:6:", "missing key `use`", "add `use = …`"]);
+    // A `role` beside it is no misspelt `file`.
+    refused_rig(7, "", &["rig.toml:6:", "missing key `file`", "add `file = …`"]);
 }
 
 #[test]

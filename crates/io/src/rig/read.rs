@@ -4,7 +4,7 @@ use super::assemble::{Loaded, Located, assemble, probe};
 use super::check;
 use super::plan::{Plan, PlannedRecord};
 use super::problem::{RigError, RigProblem};
-use super::wire::{WireColumns, WireRecord, WireRig};
+use super::wire::{KEYS, WireColumns, WireRecord, WireRig};
 use crate::input::{FileError, FileKind, TomlError, TomlFile, closest, stream};
 use crate::output::path_in_shell;
 use std::ops::Range;
@@ -174,10 +174,11 @@ impl Keys {
         Self(record.cloned())
     }
 
-    /// Whether a key is missing rather than misspelt.
+    /// Whether a key is missing rather than misspelt; `role` is no misspelt `file`.
     fn lacks(&self, key: &str) -> bool {
         let Some(table) = &self.0 else { return false };
-        !table.contains_key(key) && table.keys().all(|other| closest(other, [key]).is_none())
+        let mut unknown = table.keys().filter(|other| !KEYS.contains(&other.as_str()));
+        !table.contains_key(key) && unknown.all(|other| closest(other, [key]).is_none())
     }
 }
 

@@ -4,6 +4,23 @@ use serde::{Deserialize, Serialize};
 use switchback_model::rig::{Role, Usage};
 use toml::Spanned;
 
+/// The keys of a rig, and those of a record.
+pub(super) const KEYS: [&str; 13] = [
+    "name",
+    "sample_time",
+    "order",
+    "interval",
+    "input",
+    "output",
+    "columns",
+    "resample",
+    "record",
+    "file",
+    "role",
+    "use",
+    "holdout",
+];
+
 /// Every key may be missing here, so that all missing ones can be reported at once.
 #[derive(Debug, Default, Deserialize)]
 #[serde(deny_unknown_fields)]
