@@ -11,6 +11,7 @@
 //! | [`hysteresis`], [`linear`] | the two parts of a system |
 //! | [`reversal`] | the branch of every sample, and the strokes between reversals |
 //! | [`noise_model`] | the autoregression of the noise |
+//! | [`spectrum`], [`sums`] | periodograms and autocorrelations of signals; inner products |
 //! | [`stray`] | samples that no measurement can be |
 //! | [`system`] | a machine with terms for effects: simulated, differentiated, compared |
 //! | [`step`] | a causal model as a small program, run here or printed as C |
@@ -23,8 +24,10 @@ pub mod noise_model;
 pub mod record;
 pub mod reversal;
 pub mod rig;
+pub mod spectrum;
 pub mod step;
 pub mod stray;
+pub mod sums;
 pub mod system;
 
 pub use record::Record;

@@ -175,7 +175,7 @@ struct Moved {
 
 /// Mean square; nothing where it is no number, so that such a column counts as none.
 fn energy(column: &[f64]) -> f64 {
-    let sum = crate::least_squares::sums::energy(column) / column.len().max(1) as f64;
+    let sum = switchback_model::sums::energy(column) / column.len().max(1) as f64;
     if sum.is_finite() { sum } else { 0.0 }
 }
 

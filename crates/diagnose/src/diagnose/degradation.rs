@@ -13,9 +13,9 @@ use crate::effect::Effect;
 use crate::likelihood::engine::Fit;
 use crate::records::dataset::Criterion;
 use crate::residuals::score::heldout_log_scores;
-use crate::residuals::spectrum::mean_square;
 use crate::simulation::own_paths::without_own_paths;
 use crate::simulation::simulate::free_run;
+use switchback_model::spectrum::mean_square;
 
 impl Plan {
     /// Whether a candidate makes any held-out record worse beyond its error: simulated, or predicted one step ahead where models are

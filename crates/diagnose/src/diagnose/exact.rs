@@ -2,10 +2,10 @@
 
 use super::plan::Plan;
 use super::report::Conclusion;
-use crate::residuals::spectrum::mean_square;
 use crate::verdict::answer::Status;
 use crate::verdict::answer::naming_nothing;
 use crate::verdict::odds::Odds;
+use switchback_model::spectrum::mean_square;
 
 /// Mean square error over the output's variance up to which a model is exact: a thousandth of the spread in root mean square, about what a
 /// converter of ten bits rounds away (`range/1024/√12`, with a range of three spreads or so).

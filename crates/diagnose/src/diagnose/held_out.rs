@@ -12,10 +12,10 @@ use crate::residuals::clustering::come_where_the_input_is;
 use crate::residuals::omnibus::omnibus;
 use crate::residuals::quantisation_grid::worth;
 use crate::residuals::score::heldout_log_score;
-use crate::residuals::spectrum::mean_square;
 use crate::simulation::simulate::free_run;
 use crate::verdict::odds::IMMATERIAL;
 use crate::workers::Workers;
+use switchback_model::spectrum::mean_square;
 
 /// Simulation error on held-out records, over that of the model without the effect, from which a fit has run away.
 const RUNAWAY: f64 = 20.0;

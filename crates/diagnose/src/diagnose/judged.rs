@@ -5,10 +5,10 @@ use crate::closure::Simulated;
 use crate::likelihood::engine::Fit;
 use crate::model::sensor::SensorCurve;
 use crate::records::dataset::Criterion;
-use crate::residuals::spectrum::unpredictable_variance;
 use crate::simulation::noise_response::NoiseResponse;
 use crate::simulation::own_paths::without_own_paths;
 use crate::simulation::simulate::free_run;
+use switchback_model::spectrum::unpredictable_variance;
 
 impl Plan {
     /// Variance of the noise in the output and its relative standard error.

@@ -9,7 +9,7 @@
 
 use super::{Card, Follows, Scene, Variant, parameter};
 use crate::effect::{Effect, Stage};
-use crate::residuals::spectrum::moving_average;
+use switchback_model::spectrum::moving_average;
 
 pub(super) const CARD: Card = Card {
     confounded_effects: &[Effect::OutputNoise, Effect::InputNoise],

@@ -14,7 +14,7 @@ use std::f64::consts::TAU;
 use super::{Card, Follows, Scene, Variant, fitted_scaled_records, parameter};
 use crate::effect::Stage;
 use crate::model::augmented::{AugmentedModel, EquationColumn};
-use crate::residuals::spectrum::{share_of_line, sharpened, strongest_lines};
+use switchback_model::spectrum::{share_of_line, sharpened, strongest_lines};
 
 pub(super) const CARD: Card = Card {
     of_its_record: true,

@@ -13,7 +13,7 @@ use super::{Card, Follows, Room, Scene, Variant, fitted_scaled_records, outlasts
 use crate::effect::{Effect, Stage};
 use crate::likelihood::engine::{Fit, NonlinearParameter};
 use crate::model::augmented::EquationColumn;
-use crate::residuals::spectrum::strongest_lines;
+use switchback_model::spectrum::strongest_lines;
 
 pub(super) const CARD: Card = Card {
     confounded_effects: &[Effect::ExtraPole, Effect::InputDelay],

@@ -1,7 +1,7 @@
 //! Spectra of errors.
 
-use crate::residuals::spectrum;
 use std::f64::consts::PI;
+use switchback_model::spectrum;
 
 /// Squared magnitudes of the transform of a signal freed of its mean, with or without a Hann window, at frequencies `πk/n` for `k = 1…n`.
 pub(super) fn power(x: &[f64], is_windowed: bool) -> Vec<f64> {

@@ -3,4 +3,3 @@
 pub(crate) mod dense_sums;
 pub(crate) mod mixed_sums;
 pub(crate) mod normal;
-pub(crate) mod sums;

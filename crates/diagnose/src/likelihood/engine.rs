@@ -15,7 +15,6 @@ use std::cell::OnceCell;
 use std::sync::Arc;
 
 use crate::least_squares::normal::Normal;
-use crate::least_squares::sums::energy;
 use crate::likelihood::design::{Design, Linear, Whitener};
 use crate::likelihood::jacobian::normal_equations;
 use crate::likelihood::weights::{Weights, weigh};
@@ -23,6 +22,7 @@ use crate::model::augmented::{AugmentedModel, EquationColumn};
 use crate::model::borders::Grid;
 use crate::model::stability::settles;
 use crate::records::dataset::Dataset;
+use switchback_model::sums::energy;
 
 /// One nonlinear parameter of an effect: its value and how it may move.
 #[derive(Debug, Clone, Copy, PartialEq)]

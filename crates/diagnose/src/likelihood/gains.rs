@@ -1,8 +1,8 @@
 //! Score tests: what added columns would gain, without a re-fit.
 
 use crate::least_squares::normal::{Factor, Normal};
-use crate::least_squares::sums::dot;
 use crate::likelihood::jacobian::Jacobian;
+use switchback_model::sums::dot;
 
 /// A model at its fit, to which columns may be added.
 pub(crate) struct Gains<'a> {

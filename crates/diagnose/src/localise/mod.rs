@@ -228,7 +228,7 @@ fn spectrum_cells(innovations: &[Vec<f64>], variance: f64, sample_time: f64) -> 
     const BANDS: usize = 8;
     let mut ordinates = Vec::new();
     for segment in innovations.iter().flat_map(|w| w.chunks_exact(SEGMENT)) {
-        let power = crate::residuals::spectrum::power(segment, SEGMENT);
+        let power = switchback_model::spectrum::power(segment, SEGMENT);
         let used = power.iter().enumerate().skip(1).take(SEGMENT / 2 - 1);
         ordinates.extend(
             used.map(|(k, p)| (p / (SEGMENT as f64 * variance) - 1.0, Some(k * BANDS / (SEGMENT / 2)))),

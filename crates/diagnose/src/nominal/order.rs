@@ -15,11 +15,11 @@ use crate::nominal::structure::{PRESENT, ROUNDS, SIMULATION, Structure};
 use crate::records::dataset::{Criterion, Dataset, ScaledRecord};
 use crate::records::motion::Begins;
 use crate::residuals::score::innovations;
-use crate::residuals::spectrum::{independent_share, mean_square, unpredictable_variance};
 use crate::settings::{Model, Settings};
 use crate::simulation::noise_response::NoiseResponse;
 use crate::simulation::simulate::free_run;
 use crate::workers::Workers;
+use switchback_model::spectrum::{independent_share, mean_square, unpredictable_variance};
 
 /// A structure of the nominal model with its fit.
 #[derive(Debug)]

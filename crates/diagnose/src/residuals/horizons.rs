@@ -19,8 +19,8 @@ use crate::horizon::{Horizon, HorizonGain};
 use crate::likelihood::design::Design;
 use crate::likelihood::engine::Fit;
 use crate::likelihood::whitener::LEAD;
-use crate::residuals::spectrum::{autoregression, independent_share, mean_square};
 use crate::simulation::simulate::sensed;
+use switchback_model::spectrum::{autoregression, independent_share, mean_square};
 
 /// Longest autoregression of the equation errors: that of the longest law of coloured noise.
 const MEMORY: usize = 20;

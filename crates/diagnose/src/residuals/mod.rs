@@ -7,4 +7,6 @@ pub(crate) mod noise_size;
 pub(crate) mod omnibus;
 pub(crate) mod quantisation_grid;
 pub(crate) mod score;
-pub(crate) mod spectrum;
+
+/// Lags of the Ljung–Box statistic.
+const LAGS: usize = 20;

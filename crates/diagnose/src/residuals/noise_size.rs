@@ -2,7 +2,8 @@
 
 use crate::least_squares::normal::Normal;
 use crate::records::dataset::Dataset;
-use crate::residuals::spectrum::{LAGS, autocorrelation, portmanteau};
+use crate::residuals::LAGS;
+use switchback_model::spectrum::{autocorrelation, portmanteau};
 
 /// Squares of the counted innovations about their mean, cut at nine variances so that a few outliers do not decide.
 struct Sizes {

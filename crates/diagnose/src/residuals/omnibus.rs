@@ -8,10 +8,10 @@ use crate::likelihood::jacobian::normal_equations;
 use crate::likelihood::weights::mixture;
 use crate::model::augmented::convolve;
 use crate::records::dataset::Dataset;
+use crate::residuals::LAGS;
 use crate::residuals::noise_size::{Homoscedasticity, unweighted};
 use crate::residuals::quantisation_grid::{is_material, quantisation_step, worth};
-use crate::residuals::spectrum::LAGS;
-use crate::residuals::spectrum::portmanteau;
+use switchback_model::spectrum::portmanteau;
 
 /// What the tests found.
 #[derive(Debug, Clone)]

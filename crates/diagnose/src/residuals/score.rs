@@ -5,12 +5,12 @@ use std::ops::Range;
 
 use crate::diagnosis::ResidualPicture;
 use crate::least_squares::normal::Normal;
-use crate::least_squares::sums::energy;
 use crate::likelihood::design::{Design, DesignScaled, Whitener};
 use crate::likelihood::engine::Fit;
 use crate::likelihood::weights::weigh;
 use crate::records::dataset::{Dataset, ScaledRecord};
 use crate::simulation::initial_conditions::{with_drift_paths, with_initial_conditions};
+use switchback_model::sums::energy;
 
 /// Innovations of a fitted model on the chosen records.
 pub(crate) fn innovations(
@@ -103,14 +103,14 @@ pub(crate) fn picture(dataset: &Dataset, w: &[Vec<f64>]) -> ResidualPicture {
     let mut spectrum = vec![0.0; SEGMENT / 2 + 1];
     let mut segments = 0.0;
     for segment in w.iter().flat_map(|w| w.chunks_exact(SEGMENT)) {
-        for (s, p) in spectrum.iter_mut().zip(crate::residuals::spectrum::power(segment, SEGMENT)) {
+        for (s, p) in spectrum.iter_mut().zip(switchback_model::spectrum::power(segment, SEGMENT)) {
             *s += p / SEGMENT as f64 * dataset.y_scale * dataset.y_scale;
         }
         segments += 1.0;
     }
     spectrum.iter_mut().for_each(|s| *s /= f64::max(segments, 1.0));
     ResidualPicture {
-        autocorrelation: crate::residuals::spectrum::autocorrelation(w, LAGS),
+        autocorrelation: switchback_model::spectrum::autocorrelation(w, LAGS),
         frequency: (0..=SEGMENT / 2).map(|k| k as f64 / SEGMENT as f64).collect(),
         spectrum: if segments > 0.0 { spectrum } else { Vec::new() },
         band: 1.96 / (count.max(1) as f64).sqrt(),

@@ -1,16 +1,16 @@
-//! Periodograms and autocorrelations of residuals.
+//! Periodograms, autocorrelations and autoregressions of signals, each a list of records.
 
 use std::f64::consts::{LN_2, PI};
 
 use realfft::RealFftPlanner;
 
-use crate::least_squares::sums::{dot, energy};
+use crate::sums::{dot, energy};
 
 /// Squared magnitudes of the transform of a zero-padded signal at frequencies `k/padded`, `k = 0…padded/2`.
 ///
 /// # Panics
 /// If the signal is longer than `padded`.
-pub(crate) fn power(signal: &[f64], padded: usize) -> Vec<f64> {
+pub fn power(signal: &[f64], padded: usize) -> Vec<f64> {
     assert!(signal.len() <= padded, "a transform of {padded} points cannot hold {} samples", signal.len());
     let transform = RealFftPlanner::<f64>::new().plan_fft_forward(padded);
     let mut padded_signal = transform.make_input_vec();
@@ -21,7 +21,7 @@ pub(crate) fn power(signal: &[f64], padded: usize) -> Vec<f64> {
 }
 
 /// The strongest lines over all records, radians per sample: peaks of the summed periodograms, each over its own local level.
-pub(crate) fn strongest_lines(innovations: &[Vec<f64>], count: usize) -> Vec<f64> {
+pub fn strongest_lines(innovations: &[Vec<f64>], count: usize) -> Vec<f64> {
     let longest = innovations.iter().map(Vec::len).max().unwrap_or(0);
     if longest < 64 {
         return Vec::new();
@@ -54,7 +54,7 @@ pub(crate) fn strongest_lines(innovations: &[Vec<f64>], count: usize) -> Vec<f64
 
 /// The frequency near `omega` at which a line through all records, phase and amplitude free in each, takes the most of them: what is
 /// strong leaves much even a hundredth of a bin beside it.
-pub(crate) fn sharpened(scaled_records: &[Vec<f64>], omega: f64) -> f64 {
+pub fn sharpened(scaled_records: &[Vec<f64>], omega: f64) -> f64 {
     /// Share of the larger part in a golden section, and sections: to a thousandth of where it began.
     const GOLDEN: f64 = 0.618_033_988_749_895;
     const SECTIONS: usize = 15;
@@ -74,7 +74,7 @@ pub(crate) fn sharpened(scaled_records: &[Vec<f64>], omega: f64) -> f64 {
 }
 
 /// Share of the energy of all records that a line takes.
-pub(crate) fn share_of_line(scaled_records: &[Vec<f64>], omega: f64) -> f64 {
+pub fn share_of_line(scaled_records: &[Vec<f64>], omega: f64) -> f64 {
     energy_of_line(scaled_records, omega) / scaled_records.iter().map(|w| energy(w)).sum::<f64>().max(1e-300)
 }
 
@@ -91,7 +91,7 @@ fn ordinate(signal: &[f64], omega: f64) -> f64 {
 }
 
 /// Autocorrelation at lags `0…most`, pooled over records.
-pub(crate) fn autocorrelation(scaled_records: &[Vec<f64>], most: usize) -> Vec<f64> {
+pub fn autocorrelation(scaled_records: &[Vec<f64>], most: usize) -> Vec<f64> {
     let energy = scaled_records.iter().map(|w| energy(w)).sum::<f64>().max(1e-300);
     (0..=most)
         .map(|lag| {
@@ -104,7 +104,7 @@ pub(crate) fn autocorrelation(scaled_records: &[Vec<f64>], most: usize) -> Vec<f
 ///
 /// Of coloured errors `1 + 2Σρ²` samples show as much about their variance as one white one (Bartlett), which is `τ` for
 /// `ρ = e^(−lag/τ)`. The half is what is robust: a slow drift keeps the tail of `ρ` up.
-pub(crate) fn independent_share(errors: &[Vec<f64>]) -> f64 {
+pub fn independent_share(errors: &[Vec<f64>]) -> f64 {
     let longest = errors.iter().map(Vec::len).max().unwrap_or(1);
     let rho = autocorrelation(errors, (longest / 4).max(1));
     let half = rho.iter().position(|r| *r < 0.5).unwrap_or(rho.len());
@@ -112,12 +112,12 @@ pub(crate) fn independent_share(errors: &[Vec<f64>]) -> f64 {
 }
 
 /// Portmanteau statistic of a white signal of `count` samples: `count·Σ r²` over the lags 1 to `most`.
-pub(crate) fn portmanteau(scaled_records: &[Vec<f64>], most: usize, count: f64) -> f64 {
+pub fn portmanteau(scaled_records: &[Vec<f64>], most: usize, count: f64) -> f64 {
     autocorrelation(scaled_records, most)[1..].iter().map(|r| r * r).sum::<f64>() * count
 }
 
 /// Mean square over all records.
-pub(crate) fn mean_square(signals: &[Vec<f64>]) -> f64 {
+pub fn mean_square(signals: &[Vec<f64>]) -> f64 {
     let count: usize = signals.iter().map(Vec::len).sum();
     signals.iter().flatten().map(|x| x * x).sum::<f64>() / count.max(1) as f64
 }
@@ -126,7 +126,7 @@ pub(crate) fn mean_square(signals: &[Vec<f64>]) -> f64 {
 const MEMORY: usize = 12;
 
 /// Variance of what the past of a signal does not predict: innovations of an autoregression of order 12 through all records.
-pub(crate) fn unpredictable_variance(signals: &[Vec<f64>]) -> f64 {
+pub fn unpredictable_variance(signals: &[Vec<f64>]) -> f64 {
     let count: usize = signals.iter().map(Vec::len).sum();
     let lagged = |lag: usize| -> f64 {
         signals.iter().map(|x| x.iter().zip(x.iter().skip(lag)).map(|(a, b)| a * b).sum::<f64>()).sum()
@@ -136,7 +136,7 @@ pub(crate) fn unpredictable_variance(signals: &[Vec<f64>]) -> f64 {
 }
 
 /// The autoregression `1 + a₁ q⁻¹ + …` of covariances at lags 0, 1, …, and the variance of its innovations (Levinson's recursion).
-pub(crate) fn levinson(covariance: &[f64]) -> (Vec<f64>, f64) {
+pub fn levinson(covariance: &[f64]) -> (Vec<f64>, f64) {
     let mut variance = covariance[0];
     let mut a: Vec<f64> = Vec::new();
     for order in 0..covariance.len() - 1 {
@@ -155,7 +155,7 @@ pub(crate) fn levinson(covariance: &[f64]) -> (Vec<f64>, f64) {
 }
 
 /// The autoregression of signals, of the order up to `most` that the Bayesian information criterion prefers; empty where they are white.
-pub(crate) fn autoregression(signals: &[Vec<f64>], most: usize) -> Vec<f64> {
+pub fn autoregression(signals: &[Vec<f64>], most: usize) -> Vec<f64> {
     let count = signals.iter().map(Vec::len).sum::<usize>().max(1) as f64;
     let rho = autocorrelation(signals, most);
     let cost = |order: usize| {
@@ -171,7 +171,7 @@ const LONG: usize = 40;
 
 /// The moving average `1 + c₁ q⁻¹ + …` of a degree, `c₁…` returned, of which signals are made (Durbin, Biometrika 46, 1959): the
 /// autoregression of the coefficients of a long autoregression. All zeros lie within the unit circle.
-pub(crate) fn moving_average(signals: &[Vec<f64>], degree: usize) -> Vec<f64> {
+pub fn moving_average(signals: &[Vec<f64>], degree: usize) -> Vec<f64> {
     let mut long = vec![1.0];
     long.extend(levinson(&autocorrelation(signals, LONG)).0);
     let mut short = levinson(&autocorrelation(&[long], degree)).0;
@@ -179,14 +179,19 @@ pub(crate) fn moving_average(signals: &[Vec<f64>], degree: usize) -> Vec<f64> {
     short
 }
 
-/// Lags of the Ljung–Box statistic.
-pub(super) const LAGS: usize = 20;
-
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::testing::white;
     use proptest::prelude::*;
+
+    /// A white sequence of variance 1.
+    fn white() -> impl FnMut() -> f64 {
+        let mut state = 1_u64;
+        move || {
+            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+            ((state >> 11) as f64 / (1_u64 << 53) as f64 - 0.5) * 12.0_f64.sqrt()
+        }
+    }
 
     /// The oracle: the sum that defines the transform.
     fn power_by_definition(signal: &[f64], padded: usize) -> Vec<f64> {

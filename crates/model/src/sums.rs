@@ -4,7 +4,7 @@
 const APART: usize = 8;
 
 /// `Σ x·y` over the shorter of two signals.
-pub(crate) fn dot(x: &[f64], y: &[f64]) -> f64 {
+pub fn dot(x: &[f64], y: &[f64]) -> f64 {
     let count = x.len().min(y.len());
     let ((x, last_x), (y, last_y)) = (x[..count].as_chunks::<APART>(), y[..count].as_chunks::<APART>());
     let mut sums = [0.0; APART];
@@ -18,7 +18,7 @@ pub(crate) fn dot(x: &[f64], y: &[f64]) -> f64 {
 }
 
 /// `Σ x²`.
-pub(crate) fn energy(x: &[f64]) -> f64 {
+pub fn energy(x: &[f64]) -> f64 {
     dot(x, x)
 }
 
