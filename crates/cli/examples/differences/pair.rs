@@ -6,11 +6,11 @@
 //!
 //! `G` is one real pole or a pair of poles behind a zero-order hold. The machine's sensor is noisy, the simulator's output is not.
 
+use super::drive::{Drive, add_noise, uniform};
 use rand_chacha::ChaCha8Rng;
-use rand_chacha::rand_core::{Rng, SeedableRng};
+use rand_chacha::rand_core::SeedableRng;
 use std::f64::consts::TAU;
-use switchback_model::Record;
-use switchback_model::rig::{Rig, RigRecord, Role, Usage};
+use switchback_model::rig::Rig;
 
 /// Samples a second, and of a record.
 const RATE: f64 = 200.0;
@@ -71,14 +71,9 @@ impl Kind {
         Self::Same,
     ];
 
-    /// The place of the kind of a seed: kinds take turns.
-    pub(crate) fn place(seed: u64) -> usize {
-        (seed % Self::ALL.len() as u64) as usize
-    }
-
-    /// The kind of a seed.
+    /// The kind of a seed: kinds take turns.
     pub(crate) fn of(seed: u64) -> Self {
-        Self::ALL[Self::place(seed)]
+        Self::ALL[(seed % Self::ALL.len() as u64) as usize]
     }
 
     /// The row that must come first; none where nothing differs.
@@ -136,12 +131,8 @@ pub(crate) struct Pair {
     seed: u64,
 }
 
-fn uniform(rng: &mut ChaCha8Rng, low: f64, high: f64) -> f64 {
-    low + (high - low) * (rng.next_u64() >> 11) as f64 / (1_u64 << 53) as f64
-}
-
 /// A factor between 1.15 and 1.7, or its inverse.
-fn factor(rng: &mut ChaCha8Rng) -> f64 {
+pub(super) fn factor(rng: &mut ChaCha8Rng) -> f64 {
     let factor = uniform(rng, 1.15, 1.7);
     if uniform(rng, 0.0, 1.0) < 0.5 { factor } else { 1.0 / factor }
 }
@@ -236,74 +227,20 @@ impl Pair {
     pub(crate) fn rig(&self) -> Rig {
         let mut rng = ChaCha8Rng::seed_from_u64(self.seed);
         rng.set_stream(1);
-        let drive = Drive::draw(&mut rng);
+        let drive = Drive::draw(&mut rng, (RATE, SAMPLES), STROKE);
         let predicted = self.simulator.run(&drive);
         let mut y = self.machine.run(&drive);
-        let mean = y.iter().sum::<f64>() / SAMPLES as f64;
-        let sd = (y.iter().map(|y| (y - mean).powi(2)).sum::<f64>() / SAMPLES as f64).sqrt();
-        for y in &mut y {
-            let normal: f64 = (0..12).map(|_| uniform(&mut rng, 0.0, 1.0)).sum::<f64>() - 6.0;
-            *y += self.noise * sd * normal;
-        }
-        let v: Vec<f64> = (0..SAMPLES).map(|t| drive.at(t as f64 / RATE)[0]).collect();
-        let cut = SAMPLES - SAMPLES / 3;
-        let record = |name: &str, usage, part: std::ops::Range<usize>| RigRecord {
-            name: name.to_owned(),
-            role: Role::Free,
-            usage,
-            record: Record::new(v[part.clone()].to_vec(), y[part.clone()].to_vec())
-                .expect("finite and equally long"),
-            predicted: Some(predicted[part].to_vec()),
-        };
-        Rig {
-            name: "pair".to_owned(),
-            sample_time: 1.0 / RATE,
-            order: None,
-            interval: None,
-            input_label: "travel [mm]".to_owned(),
-            output_label: "force [kN]".to_owned(),
-            records: vec![
-                record("first two thirds", Usage::Fit, 0..cut),
-                record("last third", Usage::Holdout, cut..SAMPLES),
-            ],
-        }
-    }
-}
-
-/// Ten sines between 0.1 and 4 Hz, slower ones larger: `[amplitude, frequency, phase]`.
-struct Drive(Vec<[f64; 3]>);
-
-impl Drive {
-    fn draw(rng: &mut ChaCha8Rng) -> Self {
-        let sine = |k: i32| {
-            let f = 0.1 * 40_f64.powf((f64::from(k) + uniform(rng, 0.0, 1.0)) / 10.0);
-            [f.powf(-0.7), f, uniform(rng, 0.0, TAU)]
-        };
-        let mut drive = Self((0..10).map(sine).collect());
-        let most = (0..SAMPLES).map(|t| drive.at(t as f64 / RATE)[0].abs()).fold(0.0, f64::max);
-        drive.0.iter_mut().for_each(|sine| sine[0] *= STROKE / most);
-        drive
-    }
-
-    /// Position, speed and acceleration.
-    fn at(&self, t: f64) -> [f64; 3] {
-        self.0.iter().fold([0.0; 3], |[x, v, a], [amplitude, f, phase]| {
-            let (omega, angle) = (TAU * f, TAU * f * t + phase);
-            [
-                x + amplitude * angle.sin(),
-                v + amplitude * omega * angle.cos(),
-                a - amplitude * omega * omega * angle.sin(),
-            ]
-        })
+        add_noise(&mut y, self.noise, &mut rng);
+        drive.rig("pair", ["travel [mm]", "force [kN]"], y, predicted)
     }
 }
 
 impl Side {
     fn run(&self, drive: &Drive) -> Vec<f64> {
-        let first = drive.at(0.0)[0];
+        let first = drive.at(0)[0];
         let (mut p, mut side) = (first, 1.0);
         let force = |t: usize| {
-            let [x, v, a] = drive.at(t as f64 / RATE);
+            let [x, v, a] = drive.at(t);
             let moved = p.max(x - 0.5 * self.play).min(x + 0.5 * self.play);
             if moved != p {
                 side = f64::signum(moved - p);
