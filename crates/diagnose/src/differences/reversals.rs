@@ -3,8 +3,8 @@
 use switchback_identify::record::{Criterion, Effort, Sensitivities, Stretch, fit};
 use switchback_model::system::{Quantity, Scale, System};
 
-/// Least moves tried, as shares of the median move of the input between samples: to report, and to rank candidates.
-const LEAST_MOVES: [f64; 2] = [1.0 / 64.0, 0.25];
+/// Least moves tried, as shares of the median move of the input between samples: to report, to rank candidates, and in between.
+const LEAST_MOVES: [f64; 3] = [1.0 / 512.0, 1.0 / 4.0, 1.0 / 64.0];
 /// Share of the deviance that a move must gain, and most moves.
 const LEAST_GAIN: f64 = 1e-3;
 const MOST_MOVES: usize = 60;
@@ -25,7 +25,8 @@ pub(super) fn fit_across_reversals(
 ) -> (System, f64) {
     let (mut system, mut deviance) = fit(start, quantities, stretches, context, effort);
     let scale = context.1;
-    let least_move = LEAST_MOVES[usize::from(effort != Effort::FINAL)] * scale.speed;
+    let precision = [Effort::FINAL, Effort::SEARCH].iter().position(|known| *known == effort).unwrap_or(2);
+    let least_move = LEAST_MOVES[precision] * scale.speed;
     for quantity in quantities.iter().filter(|q| moves_reversals(start, **q)) {
         let mut reach = scale.speed;
         for _ in 0..MOST_MOVES {

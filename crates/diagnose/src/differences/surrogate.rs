@@ -8,7 +8,7 @@ use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use rand_distr::StandardNormal;
 use switchback_identify::free::FreeError;
-use switchback_identify::record::{Criterion, Effort, Sensitivities, Stretch};
+use switchback_identify::record::{Criterion, Effort, Sensitivities, Stretch, fit};
 use switchback_model::record::Record;
 use switchback_model::reversal::{ReversalRule, Timing};
 use switchback_model::system::{LAWS, LinearPart, Quantity, Scale, System, Term};
@@ -23,8 +23,13 @@ const LEAST_GAIN: f64 = 0.8;
 const FITTED: usize = 4;
 /// Rounds of identification behind a law, each at the strength fitted by the last, at most.
 const ROUNDS: usize = 4;
+/// Order of a system whose effects are not known yet.
+const MIDDLING: usize = 2;
 /// Halvings of the distance between knots once the structure is found, at most.
 const MOST_HALVINGS: usize = 2;
+
+/// Fits after each step of the search.
+const STEP: Effort = Effort { iterations: 12, tolerance: 1e-5 };
 
 /// Everything that fits of a surrogate are compared by.
 struct Search<'a> {
@@ -57,14 +62,15 @@ pub(super) fn surrogate(records: &[&Record], noise: f64) -> Result<Option<System
     let without_dynamics = System { linear: immediate, ..system.clone() };
     // And an effect may have passed for a delay.
     system.linear = system.linear.widened();
-    let mut grown = vec![search.grown(&system), search.grown(&without_dynamics)];
+    // A law that moves reversals passes for much else: where it gains, the structure is identified behind it.
+    let (_, plain) = search.fit(&system, STEP);
+    let behind = search.behind(&noisy.iter().collect::<Vec<_>>(), plain);
+    let mut grown: Vec<(System, f64)> = behind.map(|start| search.grown(&start)).into_iter().collect();
     if grown.iter().all(|(_, deviance)| *deviance > search.small()) {
-        // A law that moves reversals passes for much else: the structure is identified behind it.
-        let behind = search.behind(&noisy.iter().collect::<Vec<_>>());
-        grown.extend(behind.map(|start| search.grown(&start)));
+        grown.extend([system, without_dynamics].map(|start| search.grown(&start)));
     }
     let best = grown.into_iter().min_by(|x, y| search.worth(x).total_cmp(&search.worth(y)));
-    Ok(best.map(|best| search.with_enough_knots(best)))
+    Ok(best.map(|(best, _)| search.finished(&best)))
 }
 
 /// The record with white noise on its output, of a seed of its own.
@@ -85,10 +91,18 @@ impl Search<'_> {
         SMALL_MISFIT * self.samples as f64
     }
 
-    /// The system on borders with two, then four times as many knots, while that explains more: what is left of curved borders would be taken for a difference.
-    fn with_enough_knots(&self, (mut system, mut deviance): (System, f64)) -> System {
+    /// The system fitted to the end, on borders with two, then four times as many knots while that explains more: what is left of curved borders would be
+    /// taken for a difference.
+    fn finished(&self, system: &System) -> System {
+        let (mut system, mut deviance) = self.fit(system, Effort::FINAL);
+        let context = (&self.criterion, &self.scale);
         for _ in 0..MOST_HALVINGS {
-            let (finer, least) = self.fit(&refined(&system, 0.5), Effort::FINAL);
+            let start = refined(&system, 0.5);
+            let (finer, _) = fit(&start, &Quantity::coordinates(&start), self.stretches, context, STEP);
+            // Knots are many, and hardly move with the effects.
+            let terms: Vec<Quantity> =
+                (0..finer.terms.len()).flat_map(|k| Quantity::of_term(&finer, k)).collect();
+            let (finer, least) = fit_across_reversals(&finer, &terms, self.stretches, context, Effort::FINAL);
             if least > LEAST_GAIN * deviance {
                 break;
             }
@@ -103,17 +117,24 @@ impl Search<'_> {
         deviance.max(self.small()) + price(self.samples, Quantity::coordinates(system).len())
     }
 
-    /// Behind the start of least deviance of the laws that move reversals: the system identified there, and the start fitted with it.
-    fn behind(&self, noisy: &[&Record]) -> Option<System> {
+    /// The system identified behind a law that moves reversals, and that law fitted with it; none where no start of one gains on the deviance without any.
+    fn behind(&self, noisy: &[&Record], without: f64) -> Option<System> {
+        if without < self.small() {
+            return None;
+        }
         let moves = starts(&self.scale, &[]).into_iter().filter(|term| term.law.moves_reversals());
+        // Of a middling order, until its strength is known.
         let fitted = moves.filter_map(|term| {
-            let start = behind(noisy, &term).ok()??;
+            let start = behind(noisy, &term, Some(MIDDLING)).ok()??;
             Some(self.fit(&start, Effort::SEARCH))
         });
-        let (mut best, _) = fitted.min_by(|x, y| x.1.total_cmp(&y.1))?;
+        let (mut best, least) = fitted.min_by(|x, y| x.1.total_cmp(&y.1))?;
+        if least > LEAST_GAIN * without {
+            return None;
+        }
         for _ in 0..ROUNDS {
             let before = best.terms[0].values[0];
-            (best, _) = self.fit(&behind(noisy, &best.terms[0]).ok()??, Effort::FINAL);
+            (best, _) = self.fit(&behind(noisy, &best.terms[0], None).ok()??, STEP);
             if (best.terms[0].values[0] - before).abs() < 0.01 * before {
                 break;
             }
@@ -123,7 +144,7 @@ impl Search<'_> {
 
     /// The system with effects, poles and knots added while these explain enough, and without those that are needless then.
     fn grown(&self, start: &System) -> (System, f64) {
-        let [one, other] = [retimed(start), start.clone()].map(|start| self.fit(&start, Effort::FINAL));
+        let [one, other] = [retimed(start), start.clone()].map(|start| self.fit(&start, STEP));
         let (mut system, mut deviance) = if one.1 < other.1 { one } else { other };
         let small = self.small();
         for _ in 0..MOST_EFFECTS {
@@ -142,7 +163,7 @@ impl Search<'_> {
             if worth > deviance || least > LEAST_GAIN * deviance {
                 break;
             }
-            (system, deviance) = self.fit(&best, Effort::FINAL);
+            (system, deviance) = self.fit(&best, STEP);
             (system, deviance) = self.without_the_needless(system, deviance);
         }
         self.without_the_needless(system, deviance)

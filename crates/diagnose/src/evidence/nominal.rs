@@ -25,18 +25,22 @@ pub(crate) fn nominal(records: &[&Record], (order, delay): Known) -> Result<Opti
     }))
 }
 
-/// The system that runs as these records do with a term which moves the position, identified behind that.
+/// The system that runs as these records do with a term which moves the position, identified behind that; of a known order where it is given.
 ///
 /// # Errors
 /// As [`nominal`].
-pub(crate) fn behind(records: &[&Record], term: &Term) -> Result<Option<System>, FreeError> {
+pub(crate) fn behind(
+    records: &[&Record],
+    term: &Term,
+    order: Option<usize>,
+) -> Result<Option<System>, FreeError> {
     let moved = |record: &&Record| {
         let mut position = record.v().to_vec();
         term.law.position(&term.values, &mut position);
         Record::new(position, record.y().to_vec()).expect("as many finite values")
     };
     let moved: Vec<Record> = records.iter().map(moved).collect();
-    let system = settled(&moved.iter().collect::<Vec<_>>(), (None, None))?;
+    let system = settled(&moved.iter().collect::<Vec<_>>(), (order, None))?;
     Ok(system.map(|system| System { terms: vec![term.clone()], ..system }))
 }
 
