@@ -3,7 +3,7 @@
 use super::reversals::{fit_across_reversals, moves_reversals};
 use super::surrogate::{gains, scores, starts};
 use crate::price::price;
-use switchback_identify::record::{Criterion, Effort, Sensitivities, Stretch};
+use switchback_identify::record::{Criterion, Effort, Sensitivities, Stretch, fit};
 use switchback_model::system::{Quantity, Scale, System, Term};
 
 /// One difference between two systems.
@@ -94,7 +94,8 @@ impl Context<'_> {
     fn fit(&self, differences: &[Difference], effort: Effort) -> Selected {
         let (start, free) = with(self.base, differences);
         let context = (self.criterion, self.scale);
-        let (system, deviance) = fit_across_reversals(&start, &free, self.stretches, context, effort);
+        let of = if effort == Effort::FINAL { fit_across_reversals } else { fit };
+        let (system, deviance) = of(&start, &free, self.stretches, context, effort);
         Selected { differences: read(&system, self.base, differences), deviance }
     }
 

@@ -28,7 +28,7 @@ const MIDDLING: usize = 2;
 /// Halvings of the distance between knots once the structure is found, at most.
 const MOST_HALVINGS: usize = 2;
 
-/// Fits after each step of the search.
+/// Fits that only the structure depends on, or many knots.
 const STEP: Effort = Effort { iterations: 12, tolerance: 1e-5 };
 
 /// Everything that fits of a surrogate are compared by.
@@ -65,11 +65,9 @@ pub(super) fn surrogate(records: &[&Record], noise: f64) -> Result<Option<System
     // A law that moves reversals passes for much else: where it gains, the structure is identified behind it.
     let (_, plain) = search.fit(&system, STEP);
     let behind = search.behind(&noisy.iter().collect::<Vec<_>>(), plain);
-    let mut grown: Vec<(System, f64)> = behind.map(|start| search.grown(&start)).into_iter().collect();
-    if grown.iter().all(|(_, deviance)| *deviance > search.small()) {
-        grown.extend([system, without_dynamics].map(|start| search.grown(&start)));
-    }
-    let best = grown.into_iter().min_by(|x, y| search.worth(x).total_cmp(&search.worth(y)));
+    let starts = [system, without_dynamics].into_iter().chain(behind);
+    let grown = starts.map(|start| search.grown(&start));
+    let best = grown.min_by(|x, y| search.worth(x).total_cmp(&search.worth(y)));
     Ok(best.map(|(best, _)| search.finished(&best)))
 }
 
@@ -144,7 +142,7 @@ impl Search<'_> {
 
     /// The system with effects, poles and knots added while these explain enough, and without those that are needless then.
     fn grown(&self, start: &System) -> (System, f64) {
-        let [one, other] = [retimed(start), start.clone()].map(|start| self.fit(&start, STEP));
+        let [one, other] = [retimed(start), start.clone()].map(|start| self.fit(&start, Effort::FINAL));
         let (mut system, mut deviance) = if one.1 < other.1 { one } else { other };
         let small = self.small();
         for _ in 0..MOST_EFFECTS {
@@ -163,7 +161,7 @@ impl Search<'_> {
             if worth > deviance || least > LEAST_GAIN * deviance {
                 break;
             }
-            (system, deviance) = self.fit(&best, STEP);
+            (system, deviance) = self.fit(&best, Effort::FINAL);
             (system, deviance) = self.without_the_needless(system, deviance);
         }
         self.without_the_needless(system, deviance)
