@@ -11,7 +11,6 @@
 mod alignment;
 mod missing;
 mod pair;
-mod reversals;
 mod rows;
 mod selection;
 mod source;
