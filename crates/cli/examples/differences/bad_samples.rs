@@ -51,10 +51,9 @@ fn changed(clean: &[ReportedDifference], spoilt: &[ReportedDifference]) -> Optio
     if names(clean) != names(spoilt) {
         return Some(format!("{:?} became {:?}", names(clean), names(spoilt)));
     }
-    let moved = clean.iter().find_map(|row| {
+    clean.iter().find_map(|row| {
         let other = spoilt.iter().find(|other| other.what == row.what)?;
-        let far = row.differs && !((other.in_b - row.in_b).abs() <= row.se);
-        far.then(|| format!("{} {:.5e} became {:.5e} ± {:.1e}", row.what, row.in_b, other.in_b, row.se))
-    });
-    moved
+        let stays = !row.differs || (other.in_b - row.in_b).abs() <= row.se;
+        (!stays).then(|| format!("{} {:.5e} became {:.5e} ± {:.1e}", row.what, row.in_b, other.in_b, row.se))
+    })
 }
