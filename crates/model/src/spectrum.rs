@@ -244,7 +244,7 @@ mod tests {
     }
 
     #[test]
-    fn what_an_autoregression_does_not_foretell_is_its_innovations() {
+    fn the_unpredictable_variance_is_that_of_the_innovations() {
         let mut white = white();
         let mut x = vec![0.0, 0.0];
         for t in 2..20_000 {
