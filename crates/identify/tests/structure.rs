@@ -73,6 +73,17 @@ fn white_noise_buys_no_order() {
 }
 
 #[test]
+fn a_dead_time_is_no_order() {
+    for late in [3, 7, 12] {
+        let v = walk(late as u64, 3000);
+        let y = first_order(&v, 1 + late as u64, 0.01);
+        let y = (0..y.len()).map(|t| y[t.saturating_sub(late)]).collect();
+        let structure = chosen(v, y).structure;
+        assert_eq!((structure.order, structure.delay), (1, late as isize));
+    }
+}
+
+#[test]
 #[ignore = "two hundred identifications"]
 fn white_noise_buys_no_order_in_a_hundred_records() {
     let (first, alike) = right_ones(100, 0.0);

@@ -11,6 +11,7 @@
 mod alignment;
 mod missing;
 mod pair;
+mod reversals;
 mod rows;
 mod selection;
 mod source;

@@ -76,29 +76,22 @@ pub fn compare(machine: &[MachineRecord<'_>], source: &Source) -> Result<Option<
     let aligned = align(&outputs);
     let noise = criterion.sd / aligned.map_or(1.0, |a| a.factor.abs().max(f64::MIN_POSITIVE));
     let Some(found) = source.identified(&predicted, noise)? else { return Ok(None) };
+    let base = found.base(own.rule);
     let carried = |stretch: &Stretch, predicted: Option<&[f64]>| match predicted {
-        Some(predicted) if found.is_carried => stretch.carrying(&found.system, predicted),
+        Some(predicted) if found.is_carried => stretch.carrying(&base, predicted),
         _ => stretch.clone(),
     };
     let stretches: Vec<Stretch> = used.iter().map(|&k| carried(&all[k], machine[k].predicted)).collect();
-    let scale = Scale::of(
-        &found.system.linear,
-        found.system.rule,
-        &plain.iter().map(|s| (&s.v[..], &s.y[..])).collect::<Vec<_>>(),
-    );
+    let scale =
+        Scale::of(&base.linear, base.rule, &plain.iter().map(|s| (&s.v[..], &s.y[..])).collect::<Vec<_>>());
     let samples = plain.iter().map(|s| s.v.len()).sum();
     let mut start = start(regression(&outputs, 0), aligned);
     let mut rounds = (0..ROUNDS).map(|_| {
-        let context = Context {
-            base: &found.system,
-            stretches: &stretches,
-            criterion: &criterion,
-            scale: &scale,
-            samples,
-        };
+        let context =
+            Context { base: &base, stretches: &stretches, criterion: &criterion, scale: &scale, samples };
         let selected = context.select(start.clone());
-        let (system, _) = with(&found.system, &selected.differences);
-        let table = rows(context, &selected, &found.records);
+        let (system, _) = with(&base, &selected.differences);
+        let table = rows(context, &selected, &found);
         start = selected.differences;
         criterion = Criterion::of(&errors(&system, &stretches));
         (table, system, criterion.sd)
@@ -110,7 +103,7 @@ pub fn compare(machine: &[MachineRecord<'_>], source: &Source) -> Result<Option<
         .zip(&all)
         .map(|(m, stretch)| {
             let stretch = carried(stretch, m.predicted);
-            [stretch.simulate(&found.system), stretch.simulate(&aligned)]
+            [stretch.simulate(&base), stretch.simulate(&aligned)]
         })
         .collect();
     let shifts = (0..machine.len())

@@ -1,10 +1,12 @@
 //! The table of differences.
 
+use super::reversals::{moves_reversals, profiled};
 use super::selection::{Context, Difference, Selected, quantities, with};
-use super::surrogate::own_errors;
+use super::source::Identified;
+use super::surrogate::own_values;
 use crate::price::price;
 use nalgebra::{DMatrix, DVector};
-use switchback_identify::record::{Sensitivities, Stretch};
+use switchback_identify::record::Sensitivities;
 use switchback_model::system::{Quantity, System, Unit};
 
 /// What kind of thing a row is about.
@@ -55,7 +57,7 @@ pub fn unit_factor(gain: f64) -> Option<f64> {
 }
 
 /// All rows: those that differ first, by what the gap would grow by without them.
-pub(super) fn rows(context: Context<'_>, selected: &Selected, source: &[Stretch]) -> Vec<Row> {
+pub(super) fn rows(context: Context<'_>, selected: &Selected, source: &Identified) -> Vec<Row> {
     let (aligned, free) = with(context.base, &selected.differences);
     let open: Vec<Quantity> = quantities(context.base).filter(|q| !free.contains(q)).collect();
     let all = [&free[..], &open].concat();
@@ -64,7 +66,7 @@ pub(super) fn rows(context: Context<'_>, selected: &Selected, source: &[Stretch]
     let before = Sensitivities::deviance(context.base, context.stretches, context.criterion);
     let gap = before - selected.deviance;
     let own: Vec<Quantity> = quantities(context.base).collect();
-    let own_errors = own_errors(context.base, source, context.scale, &own);
+    let own_values = own_values(&source.system, &source.records, context.scale, &own);
     let scale = unit_factor(aligned.sensor.gain).unwrap_or(1.0);
     let mut rows: Vec<Row> = Vec::new();
     for (k, quantity) in all.iter().enumerate() {
@@ -73,9 +75,13 @@ pub(super) fn rows(context: Context<'_>, selected: &Selected, source: &[Stretch]
             Quantity::Value(term, _) => (Some(aligned.terms[*term].law.effect()), RowKind::Effect),
             _ => (None, RowKind::Parameter),
         };
-        let in_a = in_base(context.base, *quantity);
-        let se_a = own.iter().position(|q| q == quantity).map_or(0.0, |at| own_errors[at]);
-        let (in_b, se) = (quantity.value(&aligned) + errors[k].0, errors[k].1);
+        let of_base = own.iter().position(|q| q == quantity);
+        let (in_a, se_a) = of_base.map_or((in_base(context.base, *quantity), 0.0), |at| own_values[at]);
+        let (in_b, se) = if moves_reversals(&aligned, *quantity) {
+            profiled(&aligned, *quantity, context.stretches, (context.criterion, context.scale))
+        } else {
+            (quantity.value(&aligned) + errors[k].0, errors[k].1)
+        };
         // Only the difference of two delays means anything: the machine's is the origin.
         let (in_a, in_b) = match quantity {
             Quantity::Delay => (in_a - in_b, 0.0),

@@ -1,5 +1,6 @@
 //! Which differences the machine's records call for.
 
+use super::reversals::{fit_across_reversals, moves_reversals};
 use super::surrogate::{gains, scores, starts};
 use crate::price::price;
 use switchback_identify::record::{Criterion, Effort, Sensitivities, Stretch, fit};
@@ -76,6 +77,8 @@ const LEAST_SHARE: f64 = 0.01;
 const MOST: usize = 10;
 /// Delays from which a fit starts, samples.
 const DELAYS: [f64; 6] = [-6.0, -3.0, -1.0, 1.0, 3.0, 6.0];
+/// Factors of a quantity that moves reversals from which a fit starts.
+const FACTORS: [f64; 4] = [0.0, 0.5, 1.5, 2.5];
 
 /// What a selection compares systems by.
 #[derive(Debug, Clone, Copy)]
@@ -90,7 +93,9 @@ pub(super) struct Context<'a> {
 impl Context<'_> {
     fn fit(&self, differences: &[Difference], effort: Effort) -> Selected {
         let (start, free) = with(self.base, differences);
-        let (system, deviance) = fit(&start, &free, self.stretches, (self.criterion, self.scale), effort);
+        let context = (self.criterion, self.scale);
+        let of = if effort == Effort::FINAL { fit_across_reversals } else { fit };
+        let (system, deviance) = of(&start, &free, self.stretches, context, effort);
         Selected { differences: read(&system, self.base, differences), deviance }
     }
 
@@ -142,6 +147,10 @@ impl Context<'_> {
         if open.contains(&Quantity::Delay) {
             let delay = Quantity::Delay.value(&system);
             tries.extend(DELAYS.map(|more| Difference::Quantity(Quantity::Delay, delay + more)));
+        }
+        for quantity in open.into_iter().filter(|q| moves_reversals(&system, *q)) {
+            let value = quantity.value(&system);
+            tries.extend(FACTORS.map(|factor| Difference::Quantity(quantity, factor * value)));
         }
         let fits =
             tries.into_iter().map(|d| self.fit(&[&now.differences[..], &[d]].concat(), Effort::SEARCH));

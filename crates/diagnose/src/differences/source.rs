@@ -5,6 +5,7 @@ use crate::evidence::nominal;
 use switchback_identify::free::FreeError;
 use switchback_identify::record::{Criterion, Stretch};
 use switchback_model::Record;
+use switchback_model::reversal::ReversalRule;
 use switchback_model::system::System;
 
 /// What a machine is compared with.
@@ -24,6 +25,16 @@ pub(super) struct Identified {
     pub(super) records: Vec<Stretch>,
     /// Whether its predictions on the machine's records are known.
     pub(super) is_carried: bool,
+}
+
+impl Identified {
+    /// The system on borders dense enough for a change of their curvature. Where a law moves reversals, the rule that places these without it is not seen in the
+    /// source, and is the machine's.
+    pub(super) fn base(&self, machine: ReversalRule) -> System {
+        let is_open = self.system.terms.iter().any(|term| term.law.moves_reversals());
+        let rule = if is_open { machine } else { self.system.rule };
+        System { borders: self.system.borders.dense(), rule, ..self.system.clone() }
+    }
 }
 
 impl Source {

@@ -1,6 +1,7 @@
 //! A system in place of a source of which only predictions are known.
 
-use crate::evidence::nominal;
+use super::reversals::{fit_across_reversals, moves_reversals, profiled};
+use crate::evidence::{behind, nominal};
 use crate::price::price;
 use nalgebra::{DMatrix, DVector};
 use rand::{RngExt, SeedableRng};
@@ -20,6 +21,15 @@ const MOST_EFFECTS: usize = 3;
 const LEAST_GAIN: f64 = 0.8;
 /// Candidates that are fitted, of those looked at.
 const FITTED: usize = 4;
+/// Rounds of identification behind a law, each at the strength fitted by the last, at most.
+const ROUNDS: usize = 4;
+/// Order of a system whose effects are not known yet.
+const MIDDLING: usize = 2;
+/// Halvings of the distance between knots once the structure is found, at most.
+const MOST_HALVINGS: usize = 2;
+
+/// Fits that only the structure depends on, or many knots.
+const STEP: Effort = Effort { iterations: 12, tolerance: 1e-5 };
 
 /// Everything that fits of a surrogate are compared by.
 struct Search<'a> {
@@ -52,9 +62,13 @@ pub(super) fn surrogate(records: &[&Record], noise: f64) -> Result<Option<System
     let without_dynamics = System { linear: immediate, ..system.clone() };
     // And an effect may have passed for a delay.
     system.linear = system.linear.widened();
-    let grown = [system, without_dynamics].map(|start| search.grown(&start));
-    let best = grown.into_iter().min_by(|x, y| search.worth(x).total_cmp(&search.worth(y)));
-    Ok(best.map(|(system, _)| system))
+    // A law that moves reversals passes for much else: where it gains, the structure is identified behind it.
+    let (_, plain) = search.fit(&system, STEP);
+    let behind = search.behind(&noisy.iter().collect::<Vec<_>>(), plain);
+    let starts = [system, without_dynamics].into_iter().chain(behind);
+    let grown = starts.map(|start| search.grown(&start));
+    let best = grown.min_by(|x, y| search.worth(x).total_cmp(&search.worth(y)));
+    Ok(best.map(|(best, _)| search.finished(&best)))
 }
 
 /// The record with white noise on its output, of a seed of its own.
@@ -66,21 +80,71 @@ fn with_noise(record: &Record, sd: f64, number: usize) -> Record {
 
 impl Search<'_> {
     fn fit(&self, system: &System, effort: Effort) -> (System, f64) {
-        fit(system, &Quantity::coordinates(system), self.stretches, (&self.criterion, &self.scale), effort)
+        let context = (&self.criterion, &self.scale);
+        fit_across_reversals(system, &Quantity::coordinates(system), self.stretches, context, effort)
+    }
+
+    /// Deviance below which a system is as good as the source.
+    fn small(&self) -> f64 {
+        SMALL_MISFIT * self.samples as f64
+    }
+
+    /// The system fitted to the end, on borders with two, then four times as many knots while that explains more: what is left of curved borders would be
+    /// taken for a difference.
+    fn finished(&self, system: &System) -> System {
+        let (mut system, mut deviance) = self.fit(system, Effort::FINAL);
+        let context = (&self.criterion, &self.scale);
+        for _ in 0..MOST_HALVINGS {
+            let start = refined(&system, 0.5);
+            let (finer, _) = fit(&start, &Quantity::coordinates(&start), self.stretches, context, STEP);
+            // Knots are many, and hardly move with the effects.
+            let terms: Vec<Quantity> =
+                (0..finer.terms.len()).flat_map(|k| Quantity::of_term(&finer, k)).collect();
+            let (finer, least) = fit_across_reversals(&finer, &terms, self.stretches, context, Effort::FINAL);
+            if least > LEAST_GAIN * deviance {
+                break;
+            }
+            (system, deviance) = (finer, least);
+        }
+        system
     }
 
     /// Deviance and price of all its numbers.
     fn worth(&self, (system, deviance): &(System, f64)) -> f64 {
         // A misfit below the one that matters is none.
-        deviance.max(SMALL_MISFIT * self.samples as f64)
-            + price(self.samples, Quantity::coordinates(system).len())
+        deviance.max(self.small()) + price(self.samples, Quantity::coordinates(system).len())
+    }
+
+    /// The system identified behind a law that moves reversals, and that law fitted with it; none where no start of one gains on the deviance without any.
+    fn behind(&self, noisy: &[&Record], without: f64) -> Option<System> {
+        if without < self.small() {
+            return None;
+        }
+        let moves = starts(&self.scale, &[]).into_iter().filter(|term| term.law.moves_reversals());
+        // Of a middling order, until its strength is known.
+        let fitted = moves.filter_map(|term| {
+            let start = behind(noisy, &term, Some(MIDDLING)).ok()??;
+            Some(self.fit(&start, Effort::SEARCH))
+        });
+        let (mut best, least) = fitted.min_by(|x, y| x.1.total_cmp(&y.1))?;
+        if least > LEAST_GAIN * without {
+            return None;
+        }
+        for _ in 0..ROUNDS {
+            let before = best.terms[0].values[0];
+            (best, _) = self.fit(&behind(noisy, &best.terms[0], None).ok()??, STEP);
+            if (best.terms[0].values[0] - before).abs() < 0.01 * before {
+                break;
+            }
+        }
+        Some(best)
     }
 
     /// The system with effects, poles and knots added while these explain enough, and without those that are needless then.
     fn grown(&self, start: &System) -> (System, f64) {
         let [one, other] = [retimed(start), start.clone()].map(|start| self.fit(&start, Effort::FINAL));
         let (mut system, mut deviance) = if one.1 < other.1 { one } else { other };
-        let small = SMALL_MISFIT * self.samples as f64;
+        let small = self.small();
         for _ in 0..MOST_EFFECTS {
             if deviance < small {
                 break;
@@ -120,9 +184,6 @@ impl Search<'_> {
 
     /// The system with one effect more, with one pole more, or with borders on two or four times as many knots; each with reversals at samples and between.
     fn larger(&self, system: &System) -> Vec<System> {
-        let (low, high) = system.borders.range();
-        let apart = (high - low) / (system.borders.count() as f64 / 2.0 - 1.0).max(1.0);
-        let refined = |share| System { borders: system.borders.refined(share * apart), ..system.clone() };
         let with = |term| {
             let mut with = system.clone();
             with.terms.push(term);
@@ -130,7 +191,8 @@ impl Search<'_> {
         };
         let effects = self.candidates(system).into_iter().map(with);
         let linear = system.linear.larger().into_iter().map(|linear| System { linear, ..system.clone() });
-        let larger: Vec<System> = effects.chain(linear).chain([0.5, 0.25].map(refined)).collect();
+        let larger: Vec<System> =
+            effects.chain(linear).chain([0.5, 0.25].map(|share| refined(system, share))).collect();
         let retimed: Vec<System> = larger.iter().chain([system]).map(retimed).collect();
         [larger, retimed].concat()
     }
@@ -154,6 +216,13 @@ impl Search<'_> {
         scored.sort_by(|x, y| y.0.total_cmp(&x.0));
         scored.into_iter().take(FITTED).map(|(_, term)| term).collect()
     }
+}
+
+/// The same on borders with knots at a share of their mean distance.
+fn refined(system: &System, share: f64) -> System {
+    let (low, high) = system.borders.range();
+    let apart = (high - low) / (system.borders.count() as f64 / 2.0 - 1.0).max(1.0);
+    System { borders: system.borders.refined(share * apart), ..system.clone() }
 }
 
 /// The same with reversals that take effect at samples instead of between them, or conversely: an effect before the operator changes which of both is right.
@@ -189,16 +258,17 @@ pub(super) fn starts(scale: &Scale, present: &[Term]) -> Vec<Term> {
 /// Eigenvalue of the scaled information below which a direction is none that the records show.
 const LEAST_EIGENVALUE: f64 = 1e-7;
 
-/// Standard errors of quantities of a surrogate, as if its misfit were noise of the same colour: by how much another structure of the same merit might move them.
-pub(super) fn own_errors(
+/// Quantities of a surrogate, and their standard errors as if its misfit were noise of the same colour: by how much another structure of the same merit might move
+/// them.
+pub(super) fn own_values(
     system: &System,
     records: &[Stretch],
     scale: &Scale,
     quantities: &[Quantity],
-) -> Vec<f64> {
+) -> Vec<(f64, f64)> {
     if records.is_empty() {
         // The system is the source itself.
-        return vec![0.0; quantities.len()];
+        return quantities.iter().map(|q| (q.value(system), 0.0)).collect();
     }
     let errors: Vec<Vec<f64>> = records
         .iter()
@@ -222,6 +292,9 @@ pub(super) fn own_errors(
     let blocks: Vec<DVector<f64>> =
         local.blocks.iter().map(|b| DVector::from_fn(count, |i, _| b[i] / sizes[i])).collect();
     let of = |quantity: &Quantity| {
+        if moves_reversals(system, *quantity) {
+            return profiled(system, *quantity, records, (&criterion, scale));
+        }
         let value = quantity.value(system);
         let slope = |c: &Quantity| {
             let step = c.step(system, scale);
@@ -235,7 +308,7 @@ pub(super) fn own_errors(
         let gradient = DVector::from_fn(count, |i, _| slope(&coordinates[i]) / sizes[i]);
         let direction = solve(&gradient);
         let scatter: f64 = blocks.iter().map(|b| b.dot(&direction).powi(2)).sum();
-        gradient.dot(&direction).max(scatter).sqrt()
+        (value, gradient.dot(&direction).max(scatter).sqrt())
     };
     quantities.iter().map(of).collect()
 }

@@ -27,7 +27,7 @@ mod shape;
 mod shapes;
 
 pub use columns::{EffectFit, Evidence};
-pub(crate) use nominal::nominal;
+pub(crate) use nominal::{behind, nominal};
 pub use rig::Judged;
 
 #[cfg(test)]

@@ -4,7 +4,7 @@ use switchback_identify::free::{FreeError, InputMap, Settings, identify};
 use switchback_identify::record::{Criterion, Effort, Sensitivities, Stretch, bare_system, fit};
 use switchback_model::Record;
 use switchback_model::hysteresis::Branch;
-use switchback_model::system::{Borders, Mode, Quantity, Scale, System};
+use switchback_model::system::{Borders, Mode, Quantity, Scale, System, Term};
 
 /// Iterations of a fit.
 const EFFORT: Effort = Effort { iterations: 20, tolerance: 1e-3 };
@@ -17,6 +17,35 @@ pub(crate) type Known = (Option<usize>, Option<isize>);
 /// # Errors
 /// [`FreeError`] where the records show no model.
 pub(crate) fn nominal(records: &[&Record], (order, delay): Known) -> Result<Option<System>, FreeError> {
+    let Some(system) = settled(records, (order, delay))? else { return Ok(None) };
+    let records = Records::of(records);
+    Ok(Some(match levels(&records.pairs) {
+        Some(levels) => records.at_levels(&system, &levels).unwrap_or(system),
+        None => system,
+    }))
+}
+
+/// The system that runs as these records do with a term which moves the position, identified behind that; of a known order where it is given.
+///
+/// # Errors
+/// As [`nominal`].
+pub(crate) fn behind(
+    records: &[&Record],
+    term: &Term,
+    order: Option<usize>,
+) -> Result<Option<System>, FreeError> {
+    let moved = |record: &&Record| {
+        let mut position = record.v().to_vec();
+        term.law.position(&term.values, &mut position);
+        Record::new(position, record.y().to_vec()).expect("as many finite values")
+    };
+    let moved: Vec<Record> = records.iter().map(moved).collect();
+    let system = settled(&moved.iter().collect::<Vec<_>>(), (order, None))?;
+    Ok(system.map(|system| System { terms: vec![term.clone()], ..system }))
+}
+
+/// The identified system, without poles that settle in no record.
+fn settled(records: &[&Record], (order, delay): Known) -> Result<Option<System>, FreeError> {
     let settings = Settings {
         order,
         delay,
@@ -25,13 +54,8 @@ pub(crate) fn nominal(records: &[&Record], (order, delay): Known) -> Result<Opti
         input_noise: false,
         ..Settings::new(InputMap::Borders)
     };
-    let Some(system) = bare_system(&identify(records, &settings)?.model) else { return Ok(None) };
-    let records = Records::of(records);
-    let system = records.without_what_outlasts(system);
-    Ok(Some(match levels(&records.pairs) {
-        Some(levels) => records.at_levels(&system, &levels).unwrap_or(system),
-        None => system,
-    }))
+    let system = bare_system(&identify(records, &settings)?.model);
+    Ok(system.map(|system| Records::of(records).without_what_outlasts(system)))
 }
 
 /// Records that a system is fitted to.

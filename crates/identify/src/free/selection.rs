@@ -21,6 +21,8 @@ const LEVEL: f64 = 0.05;
 const ORDERS: RangeInclusive<usize> = 1..=4;
 /// Delays tried. −1: no delay at all; −2: `y` answers one sample before `v` shows, as when the sensor of `v` lags.
 const DELAYS: RangeInclusive<isize> = -2..=1;
+/// The longest delay tried where the best is late: a dead time.
+const LONGEST_DELAY: isize = 30;
 /// Knots a curve tried, [`FIRST_KNOTS`] among them.
 const KNOTS: [usize; 6] = [3, 4, 5, 7, 10, 15];
 
@@ -54,7 +56,7 @@ pub struct Selection {
 
 /// Chooses what the settings leave open, and fits it to the blocks.
 ///
-/// In turn: knots for a middling structure, order and delay at these knots, knots for these. The criterion is the free run over blocks of
+/// In turn: knots for a middling structure, order and delay at these knots, knots for these. Longer delays are tried while the best is late. The criterion is the free run over blocks of
 /// time left out of the fit ([`assess`]), each started from its own first outputs. Of the numbers of knots within one standard error of the best the least is taken (the
 /// one-standard-error rule of L. Breiman et al., "Classification and Regression Trees", 1984, §3.4.3): neighbours differ by less than
 /// chance, and the smaller ones travel better to records that the fit has not seen.
@@ -109,8 +111,15 @@ impl Search<'_> {
         let first_knots = if knots.len() == 1 { knots[0] } else { FIRST_KNOTS };
         let ladder = Ladder::new(self.data, self.settings.input_map, first_knots);
         let top = ladder.top();
-        let fits = self.coarse(&ladder, structures);
-        let coarse: Vec<Assessed> = fits.into_iter().map(|fit| self.assessed(top, fit)).collect();
+        let assessed = |structures: &[Structure]| -> Vec<Assessed> {
+            let fits = self.coarse(&ladder, structures);
+            fits.into_iter().map(|fit| self.assessed(top, fit)).collect()
+        };
+        let mut coarse = assessed(structures);
+        while let Some(later) = self.later(structures, &coarse) {
+            self.progress.found(2 * later.len());
+            coarse.extend(assessed(&later));
+        }
         let Some(middling) = least(&coarse) else { return Err(self.refusal(top, structures)) };
         let by_knots = self.along(middling, knots, first_knots);
         let Some(chosen) = most_parsimonious(&by_knots) else { return Err(self.refusal(top, structures)) };
@@ -130,6 +139,18 @@ impl Search<'_> {
         let selection =
             Selection { candidates, folds: FOLDS, structure: best.structure(), knots: best.knots };
         Ok((selection, Some(best.fitted)))
+    }
+
+    /// The structures with one sample of delay more than any assessed, while the best is no earlier than those assessed first end, and a numerator of the
+    /// largest order at its delay, which imitates longer ones, reaches beyond these; none where the delay is known.
+    fn later(&self, structures: &[Structure], assessed: &[Assessed]) -> Option<Vec<Structure>> {
+        let most = assessed.iter().map(|a| a.structure().delay).max()?;
+        let is_open = self.settings.delay.is_none() && (*DELAYS.end()..LONGEST_DELAY).contains(&most);
+        let best = least(assessed)?.structure().delay;
+        let is_late = best >= *DELAYS.end() && best + *ORDERS.end() as isize > most;
+        let latest = structures.iter().filter(|s| s.delay == *DELAYS.end());
+        let later = latest.map(|s| Structure { delay: most + 1, ..*s });
+        (is_open && is_late).then(|| later.collect())
     }
 
     /// A fit of every structure on the coarse grid, smaller ones first: each starts from those inside it.

@@ -3,6 +3,7 @@
 use super::criterion::Criterion;
 use super::stretch::Stretch;
 use nalgebra::{DMatrix, DVector};
+use switchback_model::linear::initial_state_responses;
 use switchback_model::system::{Path, Quantity, Scale, System};
 
 /// `H = ΣwJᵀJ`, `g = ΣwJᵀe` and `Σρ(e)`, with `e = PD(y − ŷ)`, `J = PD ∂ŷ/∂θ` and `P` the projection off the initial states, in units of the filtered error's
@@ -21,8 +22,6 @@ pub struct Sensitivities {
 
 /// Blocks of a dataset over which a gradient is compared with itself.
 const BLOCKS: usize = 24;
-/// Traces of an initial state are followed until they are this small.
-const FADED: f64 = 1e-3;
 
 impl Sensitivities {
     /// At a system; derivatives by forward differences, which are exact for quantities in which the run is linear.
@@ -146,7 +145,7 @@ pub(super) fn errors(stretch: &Stretch, run: &[f64]) -> Vec<f64> {
     stretch.y.iter().zip(run).map(|(y, r)| if r.is_finite() { y - r } else { 1e150 }).collect()
 }
 
-/// Filters signals of a record, and removes from each the traces that initial states of the linear part could leave.
+/// Filters signals of a record, and removes from each the traces that initial states of the linear part, and the border before the first move, could leave.
 pub fn filter_and_project(
     system: &System,
     stretch: &Stretch,
@@ -156,7 +155,9 @@ pub fn filter_and_project(
     for signal in signals.iter_mut() {
         *signal = criterion.filtered(std::mem::take(signal));
     }
-    for direction in traces(system.linear.a(), stretch.v.len(), criterion) {
+    let mut traces = initial_state_responses(system.linear.a(), stretch.v.len());
+    traces.extend(system.response_to_the_first_border(&stretch.v));
+    for direction in orthonormal(traces, criterion) {
         for signal in signals.iter_mut() {
             let share: f64 = direction.iter().zip(signal.iter()).map(|(d, x)| d * x).sum();
             signal.iter_mut().zip(&direction).for_each(|(x, d)| *x -= share * d);
@@ -164,22 +165,10 @@ pub fn filter_and_project(
     }
 }
 
-/// An orthonormal basis of the filtered responses of `1/A` to its initial states, until they have faded.
-fn traces(a: &[f64], samples: usize, criterion: &Criterion) -> Vec<Vec<f64>> {
-    let radius = switchback_model::linear::spectral_radius(a);
-    let faded = if radius > 0.0 { (FADED.ln() / radius.min(1.0 - 1e-9).ln()).ceil() } else { 1.0 };
-    // Room beyond the fading, since a multiple pole fades later than its radius says.
-    let length = (2.0 * faded + 4.0 * a.len() as f64).min(samples as f64) as usize;
+/// An orthonormal basis of filtered signals.
+fn orthonormal(signals: Vec<Vec<f64>>, criterion: &Criterion) -> Vec<Vec<f64>> {
     let mut basis: Vec<Vec<f64>> = Vec::new();
-    for k in 0..a.len() {
-        let mut x = vec![0.0; length];
-        if k >= length {
-            break;
-        }
-        x[k] = 1.0;
-        for t in k + 1..length {
-            x[t] = -a.iter().enumerate().filter(|(i, _)| t > *i).map(|(i, a)| a * x[t - 1 - i]).sum::<f64>();
-        }
+    for x in signals {
         let mut x = criterion.filtered(x);
         let before = norm(&x);
         for _ in 0..2 {

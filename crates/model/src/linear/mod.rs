@@ -3,6 +3,7 @@
 mod autocovariance;
 mod filter;
 mod frequency;
+mod initial_states;
 mod noise_memory;
 mod polynomial;
 mod recurse;
@@ -13,6 +14,7 @@ pub use autocovariance::autocovariance;
 pub use filter::filter;
 pub use frequency::frequency_response;
 pub use frequency::roots;
+pub use initial_states::initial_state_responses;
 pub use noise_memory::NoiseMemory;
 pub use polynomial::is_stable;
 pub use polynomial::relative_coprimeness;

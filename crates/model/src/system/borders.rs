@@ -146,6 +146,14 @@ impl Borders {
         Self { curves: [refine(&self.curves[0]), refine(&self.curves[1])] }
     }
 
+    /// The same curves on knots dense enough for a parabola: its chords over a 64th of the stroke lie off it by 3·10⁻⁴ of the square's standard deviation
+    /// over the stroke, in the mean.
+    #[must_use]
+    pub fn dense(&self) -> Self {
+        let (low, high) = self.range();
+        self.refined((high - low) / 64.0)
+    }
+
     /// The same on the knots of both, with mean and half width changed as functions of the position.
     #[must_use]
     pub fn map(&self, change: impl Fn(f64, f64, f64) -> (f64, f64)) -> Self {

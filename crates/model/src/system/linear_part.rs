@@ -3,6 +3,7 @@
 use super::delayed::delayed;
 use super::modes::Mode;
 use crate::linear::{is_stable, recurse};
+use nalgebra::{DMatrix, DVector};
 
 /// `x(t) = Σ bᵢ u(t − lag − delay − i) − Σ aᵢ x(t − 1 − i)` with `Σb = 1 + Σa`.
 #[derive(Debug, Clone, PartialEq)]
@@ -83,6 +84,36 @@ impl LinearPart {
         let a = Mode::polynomial(modes);
         let ratio = (1.0 + a.iter().sum::<f64>()) / (1.0 + self.a.iter().sum::<f64>());
         Self { a, modes: modes.to_vec(), b: self.b.iter().map(|b| b * ratio).collect(), ..self.clone() }
+    }
+
+    /// The same with another value of a mode. As much of the numerator as is the mode behind a zero-order hold, `B = Q·N + rest` with `Q` of least squares,
+    /// follows it: the zeros of sampling move with the poles.
+    ///
+    /// # Panics
+    /// If there is no such mode.
+    #[must_use]
+    pub fn with_mode(&self, at: usize, mode: Mode) -> Self {
+        let mut modes = self.modes.clone();
+        let before = std::mem::replace(&mut modes[at], mode);
+        let (old, new) = (before.sampled(), mode.sampled());
+        let b = self.b();
+        let Some(rest) = b.len().checked_sub(old.len()).filter(|_| old.len() == new.len()) else {
+            return self.with_modes(&modes);
+        };
+        let shifted = |n: &[f64]| {
+            DMatrix::from_fn(b.len(), rest + 1, |i, j| {
+                i.checked_sub(j).and_then(|k| n.get(k)).copied().unwrap_or(0.0)
+            })
+        };
+        let (old, new) = (shifted(&old), shifted(&new));
+        let b = DVector::from_vec(b);
+        let Some(factor) = old.tr_mul(&old).cholesky() else { return self.with_modes(&modes) };
+        let share = factor.solve(&old.tr_mul(&b));
+        let moved = &b + (new - old) * share;
+        // Of the gain at rest that its own poles ask for, from which other ones scale it.
+        let scale = (1.0 + self.a.iter().sum::<f64>()) / moved.sum();
+        let b = moved.iter().skip(1).map(|b| b * scale).collect();
+        Self { b, ..self.clone() }.with_modes(&modes)
     }
 
     /// The same system with room for other delays: its numerator reaches from the present sample, or from where it did, to one sample more than it did.
@@ -186,6 +217,25 @@ mod tests {
         for part in [&part, &other, &part.with_modes(&[Mode::Real(0.5), Mode::Real(0.9)])] {
             assert!((part.run(&step)[399] - 1.0).abs() < 1e-9);
         }
+    }
+
+    #[test]
+    fn zeros_of_sampling_follow_their_poles() {
+        let pair = |frequency, damping| Mode::Pair { frequency, damping };
+        let sampled = |mode: Mode, late: f64| {
+            let n = mode.sampled();
+            let b = [(1.0 - late) * n[0], (1.0 - late) * n[1] + late * n[0], late * n[1]];
+            LinearPart::new(&Mode::polynomial(&[mode]), &b, 1).unwrap().0
+        };
+        for late in [0.0, 0.3] {
+            let moved = sampled(pair(0.6, 0.3), late).with_mode(0, pair(0.5, 0.5));
+            let expected = sampled(pair(0.5, 0.5), late);
+            assert!(moved.b().iter().zip(expected.b()).all(|(x, y)| (x - y).abs() < 1e-12), "{late}");
+            assert!(moved.a() == expected.a());
+        }
+        // A numerator too short for a zero keeps its shape.
+        let (short, _) = LinearPart::new(&[-1.2, 0.5], &[1.0], 1).unwrap();
+        assert_eq!(short.with_mode(0, pair(0.5, 0.5)), short.with_modes(&[pair(0.5, 0.5)]));
     }
 
     #[test]

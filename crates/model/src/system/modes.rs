@@ -54,6 +54,23 @@ impl Mode {
         a.split_off(1)
     }
 
+    /// Numerator of the sampled mode behind a zero-order hold, of unit gain at rest; its first coefficient is that of lag 1.
+    ///
+    /// K. J. Åström, B. Wittenmark, Computer-Controlled Systems (1997), table 2.1: `(1 − p)` of a real pole; of a pair `b₁ = 1 − α(β + ζω/w γ)`,
+    /// `b₂ = α² + α(ζω/w γ − β)` with `w = ω√(1−ζ²)`, `α = exp(−ζω)`, `β = cos w`, `γ = sin w`.
+    pub(super) fn sampled(self) -> Vec<f64> {
+        match self {
+            Self::Real(p) => vec![1.0 - p],
+            Self::Pair { frequency, damping } => {
+                let root = (1.0 - damping * damping).max(f64::MIN_POSITIVE).sqrt();
+                let radius = (-frequency * damping).exp();
+                let (sin, cos) = (frequency * root).sin_cos();
+                let sin = damping / root * sin;
+                vec![1.0 - radius * (cos + sin), radius * radius + radius * (sin - cos)]
+            }
+        }
+    }
+
     /// Time constant of a real pole in samples, `−1/ln p`; none for a pole that is no lag of a machine in continuous time.
     pub fn time_constant(self) -> Option<f64> {
         match self {
@@ -66,6 +83,24 @@ impl Mode {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_sampled_mode_answers_a_step_as_in_continuous_time() {
+        let (frequency, damping) = (0.4_f64, 0.3_f64);
+        let pair = Mode::Pair { frequency, damping };
+        let (a, b) = (Mode::polynomial(&[pair]), pair.sampled());
+        let (w, mut y) = (frequency * (1.0 - damping * damping).sqrt(), vec![0.0; 60]);
+        for t in 1..60 {
+            let before = |lag: usize| if t >= lag { y[t - lag] } else { 0.0 };
+            y[t] = b[0] + if t > 1 { b[1] } else { 0.0 } - a[0] * before(1) - a[1] * before(2);
+            let time = t as f64;
+            let decay = (-damping * frequency * time).exp();
+            let exact = 1.0 - decay * ((w * time).cos() + damping * frequency / w * (w * time).sin());
+            assert!((y[t] - exact).abs() < 1e-9, "{t}");
+        }
+        let rest = 1.0 + Mode::polynomial(&[Mode::Real(0.8)])[0];
+        assert!((Mode::Real(0.8).sampled()[0] - rest).abs() < 1e-12);
+    }
 
     #[test]
     fn modes_and_coefficients_are_the_same_system() {

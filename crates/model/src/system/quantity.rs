@@ -173,27 +173,22 @@ impl Quantity {
                 let shape = Shape::of(system);
                 let more = value - shape.square;
                 let bent = |v: f64, mean: f64, half| (mean + more * (v - shape.pivot).powi(2), half);
-                // On knots dense enough for a parabola.
-                let (low, high) = system.borders.range();
-                out.borders = system.borders.refined((high - low) / 12.0).map(bent);
+                out.borders = system.borders.dense().map(bent);
             }
             Self::TimeConstant(k) => {
                 let (at, _) = reals(system).nth(k).expect("a real pole");
-                let mut modes = system.linear.modes().to_vec();
-                modes[at] = Mode::Real((-1.0 / value.clamp(SHORTEST, LONGEST)).exp());
-                out.linear = system.linear.with_modes(&modes);
+                let mode = Mode::Real((-1.0 / value.clamp(SHORTEST, LONGEST)).exp());
+                out.linear = system.linear.with_mode(at, mode);
             }
             Self::Frequency(k) => {
                 let (at, (_, damping)) = pairs(system).nth(k).expect("a pair of poles");
-                let mut modes = system.linear.modes().to_vec();
-                modes[at] = Mode::Pair { frequency: value.clamp(1e-6, 3.1), damping };
-                out.linear = system.linear.with_modes(&modes);
+                let mode = Mode::Pair { frequency: value.clamp(1e-6, 3.1), damping };
+                out.linear = system.linear.with_mode(at, mode);
             }
             Self::Damping(k) => {
                 let (at, (frequency, _)) = pairs(system).nth(k).expect("a pair of poles");
-                let mut modes = system.linear.modes().to_vec();
-                modes[at] = Mode::Pair { frequency, damping: value.clamp(1e-4, 0.9999) };
-                out.linear = system.linear.with_modes(&modes);
+                let mode = Mode::Pair { frequency, damping: value.clamp(1e-4, 0.9999) };
+                out.linear = system.linear.with_mode(at, mode);
             }
             Self::Value(term, index) => out.terms[term] = system.terms[term].set(index, value),
             Self::Knot(knot) => *out.borders.value_mut(knot) = value,

@@ -48,6 +48,22 @@ impl System {
         self.respond(&self.path(v, span), &[])
     }
 
+    /// The response to one unit between the borders until the position first moves, where a law hides that move: on which border a record begins is not
+    /// seen before. None where no law moves reversals, or the position moves at once.
+    pub fn response_to_the_first_border(&self, v: &[f64]) -> Option<Vec<f64>> {
+        if self.terms.iter().all(|term| !term.law.moves_reversals()) {
+            return None;
+        }
+        let mut position = v.to_vec();
+        for term in &self.terms {
+            term.law.position(&term.values, &mut position);
+        }
+        let first = position.iter().position(|p| *p != position[0]).filter(|&first| first > 1)?;
+        let mut u = vec![0.0; v.len()];
+        u[..first].fill(1.0);
+        Some(self.linear.run(&u))
+    }
+
     /// Where the working point is.
     pub fn path(&self, v: &[f64], span: Span) -> Path {
         Path::of(v, (&self.borders, self.rule), (&self.terms, span), None)
