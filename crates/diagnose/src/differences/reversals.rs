@@ -1,6 +1,6 @@
 //! Fits of systems with a law that moves reversals.
 
-use switchback_identify::record::{Criterion, Effort, Sensitivities, Stretch, fit};
+use switchback_identify::record::{Criterion, Effort, Stretch, fit};
 use switchback_model::system::{Quantity, Scale, System};
 
 /// Least moves tried, as shares of the median move of the input between samples: to report, to rank candidates, and in between.
@@ -49,42 +49,48 @@ pub(super) fn fit_across_reversals(
     (system, deviance)
 }
 
+/// Fit of everything else at a value within an interval: a deviance as large as the samples are many is known far below the quantile.
+const AT_A_VALUE: Effort = Effort { iterations: 5, tolerance: 1e-5 };
+
 /// The quantile of χ² with one degree of freedom at 95 %, and the normal one.
 const WITHIN: f64 = 3.84;
 const Z95: f64 = 1.96;
-/// Precision of the ends of an interval, as a share of the median move of the input between samples.
-const PRECISION: f64 = 1.0 / 1024.0;
+/// Precision of the ends of an interval: as a share of the median move of the input between samples, and of the distance to the end.
+const PRECISION: [f64; 2] = [1.0 / 1024.0, 1.0 / 32.0];
 
-/// Estimate and standard error of a quantity that moves reversals: the middle of the values around the present one at which the deviance lies within the
-/// quantile of χ² of the least, and half their range over the normal quantile. Between two teeth the deviance is nearly flat, at each of them it jumps:
-/// a second derivative shows neither. Where its lower bound is among these values it is the estimate.
+/// Estimate and standard error of a quantity that moves reversals: the middle of the values around the present one at which the profile deviance, all other free
+/// quantities fitted again, lies within the quantile of χ² of the least, and half their range over the normal quantile. Between two teeth the deviance is nearly
+/// flat, at each of them it jumps: a second derivative shows neither. Where its lower bound is among these values it is the estimate.
 ///
 /// W. Q. Meeker, L. A. Escobar, The American Statistician 49 (1995), doi 10.1080/00031305.1995.10476112.
 pub(super) fn profiled(
     system: &System,
     quantity: Quantity,
+    free: &[Quantity],
     stretches: &[Stretch],
-    (criterion, scale): (&Criterion, &Scale),
+    context: (&Criterion, &Scale),
 ) -> (f64, f64) {
     let value = quantity.value(system);
-    let at = |value: f64| Sensitivities::deviance(&quantity.set(system, value), stretches, criterion);
+    let others: Vec<Quantity> = free.iter().copied().filter(|q| *q != quantity).collect();
+    let at = |value: f64| fit(&quantity.set(system, value), &others, stretches, context, AT_A_VALUE).1;
     let most = at(value) + WITHIN;
-    let precision = PRECISION * scale.speed;
+    let [precision, share] = PRECISION;
+    let precision = precision * context.1.speed;
     let end = |side: f64| {
         let (mut inside, mut step) = (0.0, precision);
         let is_inside = |distance: f64| {
             let there = value + side * distance;
             there > 0.0 && at(there) <= most
         };
-        while step < scale.travel && is_inside(inside + step) {
+        while step < context.1.travel && is_inside(inside + step) {
             inside += step;
             step *= 2.0;
         }
-        while step > precision {
+        while step > f64::max(precision, share * inside) {
             step *= 0.5;
             inside += if is_inside(inside + step) { step } else { 0.0 };
         }
-        value + side * (inside + 0.5 * precision)
+        value + side * (inside + 0.5 * step)
     };
     let (low, high) = (end(-1.0), end(1.0));
     if low <= precision && at(0.0) <= most {

@@ -41,9 +41,9 @@ pub struct Row {
     pub probability: f64,
     /// Whether it differs.
     pub differs: bool,
-    /// Share of the gap that would stay without it, all other differences aligned.
+    /// Share of the gap that would stay without it, all other differences fitted again.
     pub closure: f64,
-    /// Deviance that the gap would grow by without it.
+    /// Growth of the deviance without it, all other differences fitted again.
     pub gain: f64,
 }
 
@@ -65,6 +65,7 @@ pub(super) fn rows(context: Context<'_>, selected: &Selected, source: &Identifie
     let errors = errors(&local, free.len());
     let before = Sensitivities::deviance(context.base, context.stretches, context.criterion);
     let gap = before - selected.deviance;
+    let losses = context.losses(selected);
     let own: Vec<Quantity> = quantities(context.base).collect();
     let own_values = own_values(&source.system, &source.records, context.scale, &own);
     let scale = unit_factor(aligned.sensor.gain).unwrap_or(1.0);
@@ -78,7 +79,7 @@ pub(super) fn rows(context: Context<'_>, selected: &Selected, source: &Identifie
         let of_base = own.iter().position(|q| q == quantity);
         let (in_a, se_a) = of_base.map_or((in_base(context.base, *quantity), 0.0), |at| own_values[at]);
         let (in_b, se) = if moves_reversals(&aligned, *quantity) {
-            profiled(&aligned, *quantity, context.stretches, (context.criterion, context.scale))
+            profiled(&aligned, *quantity, &free, context.stretches, (context.criterion, context.scale))
         } else {
             (quantity.value(&aligned) + errors[k].0, errors[k].1)
         };
@@ -87,7 +88,10 @@ pub(super) fn rows(context: Context<'_>, selected: &Selected, source: &Identifie
             Quantity::Delay => (in_a - in_b, 0.0),
             _ => (in_a, in_b),
         };
-        let gain = if differs { gain_of(context, selected, *quantity) } else { ((in_b - in_a) / se).powi(2) };
+        let gain = match place(context, selected, *quantity) {
+            Some(at) => losses[at],
+            None => ((in_b - in_a) / se).powi(2),
+        };
         let unit = quantity.unit(&aligned);
         let scale = if unit.is_of_output() && *quantity != Quantity::Offset { scale } else { 1.0 };
         let odds = 0.5 * (gain - price(context.samples, 1));
@@ -123,15 +127,6 @@ fn in_base(base: &System, quantity: Quantity) -> f64 {
         }
         _ => quantity.value(base),
     }
-}
-
-/// What dropping the difference that a quantity belongs to would lose.
-fn gain_of(context: Context<'_>, selected: &Selected, quantity: Quantity) -> f64 {
-    let Some(at) = place(context, selected, quantity) else { return 0.0 };
-    let mut fewer = selected.differences.clone();
-    fewer.remove(at);
-    let (system, _) = with(context.base, &fewer);
-    Sensitivities::deviance(&system, context.stretches, context.criterion) - selected.deviance
 }
 
 /// The difference that a quantity belongs to.

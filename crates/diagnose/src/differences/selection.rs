@@ -160,13 +160,22 @@ impl Context<'_> {
         (self.worth(&best) < self.worth(now) && gained > LEAST_SHARE * explained).then_some(best)
     }
 
+    /// The selection without one of its differences, the others fitted again.
+    fn without(&self, now: &Selected, number: usize) -> Selected {
+        let mut differences = now.differences.clone();
+        differences.remove(number);
+        self.fit(&differences, Effort::SEARCH)
+    }
+
+    /// For every difference the growth of the deviance without it, the others fitted again.
+    pub(super) fn losses(&self, selected: &Selected) -> Vec<f64> {
+        let loss = |number| (self.without(selected, number).deviance - selected.deviance).max(0.0);
+        (0..selected.differences.len()).map(loss).collect()
+    }
+
     fn without_the_needless(&self, mut now: Selected) -> Selected {
         loop {
-            let fewer = (0..now.differences.len()).map(|k| {
-                let mut differences = now.differences.clone();
-                differences.remove(k);
-                self.fit(&differences, Effort::SEARCH)
-            });
+            let fewer = (0..now.differences.len()).map(|k| self.without(&now, k));
             match fewer.min_by(|x, y| self.worth(x).total_cmp(&self.worth(y))) {
                 Some(best) if self.worth(&best) <= self.worth(&now) => now = best,
                 _ => return now,

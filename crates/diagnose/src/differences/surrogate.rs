@@ -293,7 +293,7 @@ pub(super) fn own_values(
         local.blocks.iter().map(|b| DVector::from_fn(count, |i, _| b[i] / sizes[i])).collect();
     let of = |quantity: &Quantity| {
         if moves_reversals(system, *quantity) {
-            return profiled(system, *quantity, records, (&criterion, scale));
+            return profiled(system, *quantity, &coordinates, records, (&criterion, scale));
         }
         let value = quantity.value(system);
         let slope = |c: &Quantity| {

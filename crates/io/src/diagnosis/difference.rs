@@ -26,7 +26,7 @@ pub struct ReportedDifference {
     pub probability: f64,
     /// Whether it differs.
     pub differs: bool,
-    /// Share of the gap that would stay without it.
+    /// Share of the gap that would stay without it, all others fitted again.
     pub closure: f64,
     /// The attribute of a MuJoCo joint that it is.
     pub attribute: Option<&'static str>,

@@ -33,7 +33,7 @@ pub(crate) struct Difference {
     pub probability: f64,
     /// Whether they do.
     pub differs: bool,
-    /// Share of the gap that would stay without aligning this one, all others aligned.
+    /// Share of the gap that would stay without aligning this one, all others fitted again.
     #[serde(deserialize_with = "switchback_io::input::nullable::number")]
     pub closure: f64,
     /// The attribute of a MuJoCo joint that it is, where it is one.
@@ -272,7 +272,7 @@ pub(super) fn table(report: &Report, differences: &Differences) -> String {
         ]);
     }
     let note = wrapped(
-        "probability: that the values differ. A delay is that of the source against the machine; `closes`: the share of the gap that would stay without aligning this value.",
+        "probability: that the values differ. A delay is that of the source against the machine; `closes`: the share of the gap that would stay without this value, the others fitted again.",
         "",
     );
     format!("{}{note}", columns(&lines))

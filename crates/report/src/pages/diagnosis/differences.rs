@@ -16,7 +16,7 @@ pub(super) fn differences(gap: &GapFile) -> Markup {
         }
         p class="note" {
             "Filled: the machine, with its 95 % interval; hollow: what was compared with it. A delay is relative to the machine's. Closure: the share of the gap that "
-            "would stay without aligning this value."
+            "would stay without this value, the others fitted again."
         }
     }
 }
