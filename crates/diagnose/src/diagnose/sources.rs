@@ -12,7 +12,7 @@ use super::given_model::GivenModel;
 use super::plan::{Plan, judged_scaled_records};
 use super::report::{Conclusion, Other};
 use crate::diagnosis::{Candidate, Diagnosis};
-use crate::differences::{Differences, MachineRecord, Source, causes, compare, is_imitation, missing};
+use crate::differences::{Basis, Differences, MachineRecord, Source, causes, compare, is_imitation, missing};
 use crate::effect::Effect;
 use crate::error::DiagnoseError;
 use crate::evidence::Judged;
@@ -39,7 +39,7 @@ pub(super) fn compared(
     // What is wrong with the model or its predictions comes first.
     let judged = judged_scaled_records(&dataset, &mut Vec::new());
     GivenModel::of(&model, rig, &dataset, &judged)?;
-    let differences = differences(rig, &model)?;
+    let differences = differences(workers, rig, &model)?;
     // Where only other records are known, the model under diagnosis is the system that stands for them.
     let (rig, model) = match (&model, &differences) {
         (Model::Against(_), Some(found)) => (with_runs(rig, found), Model::Predicted),
@@ -51,16 +51,43 @@ pub(super) fn compared(
     let plan = Plan::new(&rig, &model, &Settings { effects: Vec::new(), ..settings.clone() }, chosen)?;
     workers.begin(Phase::Report);
     let diagnosis = report(plan, &rig, differences);
-    match (diagnosis.verdict.status, &diagnosis.differences) {
-        (Status::Unexplained, Some(found)) => {
-            let posterior = settings.posterior.as_deref().unwrap_or_else(|| Posterior::built_in());
-            // Evidence is freed of the directions of the source's values, but not of those of effects that stand for another.
-            let runs: Vec<Vec<f64>> = found.runs.iter().map(|[run, _]| run.clone()).collect();
-            let Ok(Some(judged)) = Judged::beside(&rig, &runs) else { return Ok(diagnosis) };
-            Ok(with(diagnosis, Classification::of(&judged, posterior, settings)?))
-        }
-        _ => Ok(diagnosis),
+    let Some(found) =
+        diagnosis.differences.clone().filter(|_| diagnosis.verdict.status == Status::Unexplained)
+    else {
+        return Ok(diagnosis);
+    };
+    if let Some(own) = of_own_nominal(workers, (&rig, settings), &found)? {
+        return Ok(Diagnosis { differences: Some(Differences { basis: Basis::Nominal, ..found }), ..own });
     }
+    let posterior = settings.posterior.as_deref().unwrap_or_else(|| Posterior::built_in());
+    // Evidence is freed of the directions of the source's values, but not of those of effects that stand for another.
+    let runs: Vec<Vec<f64>> = found.runs.iter().map(|[run, _]| run.clone()).collect();
+    let Ok(Some(judged)) = Judged::beside(&rig, &runs) else { return Ok(diagnosis) };
+    let diagnosis =
+        Diagnosis { differences: Some(Differences { basis: Basis::Errors, ..found }), ..diagnosis };
+    Ok(with(diagnosis, Classification::of(&judged, posterior, settings)?))
+}
+
+/// Share of the source's mean square error below which its distance from the machine's own nominal model leaves both with the same gap.
+const NEAR: f64 = 0.1;
+
+/// The diagnosis of the machine's own nominal model, where the source runs as this does on the held-out records: a source fitted to the machine without an effect
+/// has all its values off, and lacks the same as any other that is fitted so.
+fn of_own_nominal(
+    workers: &impl Workers,
+    (rig, settings): (&Rig, &Settings),
+    found: &Differences,
+) -> Result<Option<Diagnosis>, DiagnoseError> {
+    let own = super::diagnose_with(workers, rig, Model::Identify, settings)?;
+    let (mut apart, mut missed) = (0.0, 0.0);
+    for series in &own.series {
+        let Some(at) = rig.records.iter().position(|r| r.name == series.record) else { return Ok(None) };
+        let source = &found.runs[at][0];
+        let square = |y: &[f64]| source.iter().zip(y).map(|(run, y)| (run - y).powi(2)).sum::<f64>();
+        apart += square(&series.nominal);
+        missed += square(&series.measured);
+    }
+    Ok((apart < NEAR * missed).then_some(own))
 }
 
 /// The diagnosis with the verdict of the posterior.
@@ -92,7 +119,11 @@ fn with(diagnosis: Diagnosis, classification: Classification) -> Diagnosis {
 }
 
 /// The comparison itself; none where the source has no gain at rest.
-fn differences(rig: &Rig, model: &Model) -> Result<Option<Differences>, DiagnoseError> {
+fn differences(
+    workers: &impl Workers,
+    rig: &Rig,
+    model: &Model,
+) -> Result<Option<Differences>, DiagnoseError> {
     let source = match model {
         Model::Identify => return Ok(None),
         Model::Predicted => Source::Predictions,
@@ -123,7 +154,7 @@ fn differences(rig: &Rig, model: &Model) -> Result<Option<Differences>, Diagnose
         predicted: r.predicted.as_ref().filter(|p| whole(p, &r.record)).map(Vec::as_slice),
         is_fitted: r.usage == fitted,
     });
-    compare(&machine.collect::<Vec<_>>(), &source).map_err(|error| refused(&error))
+    compare(workers, &machine.collect::<Vec<_>>(), &source).map_err(|error| refused(&error))
 }
 
 fn refused(error: &FreeError) -> DiagnoseError {

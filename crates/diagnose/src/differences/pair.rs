@@ -5,6 +5,7 @@ use super::rows::{Row, rows};
 use super::selection::{Context, Difference, with};
 use super::source::Source;
 use crate::evidence::nominal;
+use crate::workers::Workers;
 use switchback_identify::free::FreeError;
 use switchback_identify::record::{Criterion, Stretch};
 use switchback_model::Record;
@@ -37,6 +38,19 @@ pub struct Differences {
     pub runs: Vec<[Vec<f64>; 2]>,
     /// Records that were not fitted and differ from those that were.
     pub shifts: Vec<Shift>,
+    /// The ground of the verdict.
+    pub basis: Basis,
+}
+
+/// The ground of a verdict on a source.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Basis {
+    /// The differences.
+    Differences,
+    /// The posterior on the source's errors: no few differences align it.
+    Errors,
+    /// The diagnosis of the machine's own nominal model: the source runs as this does, and no few differences align it.
+    Nominal,
 }
 
 /// A record whose output lies beside the aligned run of the source by a constant.
@@ -57,7 +71,11 @@ const ROUNDS: usize = 3;
 ///
 /// # Errors
 /// [`FreeError`] where one of both sides cannot be identified.
-pub fn compare(machine: &[MachineRecord<'_>], source: &Source) -> Result<Option<Differences>, FreeError> {
+pub fn compare(
+    workers: &impl Workers,
+    machine: &[MachineRecord<'_>],
+    source: &Source,
+) -> Result<Option<Differences>, FreeError> {
     let (screened, _) = screened(&machine.iter().map(|m| m.record).collect::<Vec<_>>());
     let all = Stretch::all(&screened.iter().map(|r| (r.v(), r.y())).collect::<Vec<_>>());
     let is_used =
@@ -75,7 +93,7 @@ pub fn compare(machine: &[MachineRecord<'_>], source: &Source) -> Result<Option<
     // A sign or a unit is no small change: the prediction shows it before anything is fitted.
     let aligned = align(&outputs);
     let noise = criterion.sd / aligned.map_or(1.0, |a| a.factor.abs().max(f64::MIN_POSITIVE));
-    let Some(found) = source.identified(&predicted, noise)? else { return Ok(None) };
+    let Some(found) = source.identified(workers, &predicted, noise)? else { return Ok(None) };
     let base = found.base(own.rule);
     let carried = |stretch: &Stretch, predicted: Option<&[f64]>| match predicted {
         Some(predicted) if found.is_carried => stretch.carrying(&base, predicted),
@@ -87,11 +105,17 @@ pub fn compare(machine: &[MachineRecord<'_>], source: &Source) -> Result<Option<
     let samples = plain.iter().map(|s| s.v.len()).sum();
     let mut start = start(regression(&outputs, 0), aligned);
     let mut rounds = (0..ROUNDS).map(|_| {
-        let context =
-            Context { base: &base, stretches: &stretches, criterion: &criterion, scale: &scale, samples };
+        let context = Context {
+            workers,
+            base: &base,
+            stretches: &stretches,
+            criterion: &criterion,
+            scale: &scale,
+            samples,
+        };
         let selected = context.select(start.clone());
         let (system, _) = with(&base, &selected.differences);
-        let table = rows(context, &selected, &found);
+        let table = rows(&context, &selected, &found);
         start = selected.differences;
         criterion = Criterion::of(&errors(&system, &stretches));
         (table, system, criterion.sd)
@@ -110,7 +134,15 @@ pub fn compare(machine: &[MachineRecord<'_>], source: &Source) -> Result<Option<
         .filter(|k| !machine[*k].is_fitted)
         .filter_map(|k| shift(k, screened[k].y(), &runs[k][1], noise))
         .collect();
-    Ok(Some(Differences { rows, source: found.system, aligned, noise, runs, shifts }))
+    Ok(Some(Differences {
+        rows,
+        source: found.system,
+        aligned,
+        noise,
+        runs,
+        shifts,
+        basis: Basis::Differences,
+    }))
 }
 
 /// Errors of the free runs.

@@ -5,6 +5,7 @@ use super::selection::{Context, Difference, Selected, quantities, with};
 use super::source::Identified;
 use super::surrogate::own_values;
 use crate::price::price;
+use crate::workers::Workers;
 use nalgebra::{DMatrix, DVector};
 use switchback_identify::record::Sensitivities;
 use switchback_model::system::{Quantity, System, Unit};
@@ -47,6 +48,53 @@ pub struct Row {
     pub gain: f64,
 }
 
+impl Row {
+    /// A row of values that are the same, each with its standard error; its probability follows from the deviance gained by letting them differ.
+    pub(super) fn of(
+        quantity: Quantity,
+        aligned: &System,
+        [(in_a, se_a), (in_b, se)]: [(f64, f64); 2],
+        (gain, samples): (f64, usize),
+    ) -> Self {
+        let (effect, kind) = match quantity {
+            Quantity::Value(term, _) => (Some(aligned.terms[term].law.effect()), RowKind::Effect),
+            _ => (None, RowKind::Parameter),
+        };
+        let odds = 0.5 * (gain - price(samples, 1));
+        Self {
+            what: quantity.name(aligned),
+            effect,
+            kind,
+            in_a,
+            in_b,
+            se_a,
+            se: se.hypot(se_a),
+            unit: quantity.unit(aligned),
+            probability: 1.0 / (1.0 + (-odds).exp()),
+            differs: false,
+            closure: 0.0,
+            gain,
+        }
+    }
+
+    /// The same of values that differ, without which a share of the gap would stay.
+    pub(super) fn differing(self, share: f64) -> Self {
+        Self { differs: true, closure: if share.is_finite() { share.max(0.0) } else { 0.0 }, ..self }
+    }
+
+    /// The same in units of which a factor makes those of the machine.
+    fn times(self, factor: f64) -> Self {
+        let Self { in_a, in_b, se_a, se, .. } = self;
+        Self {
+            in_a: factor * in_a,
+            in_b: factor * in_b,
+            se_a: factor.abs() * se_a,
+            se: factor.abs() * se,
+            ..self
+        }
+    }
+}
+
 /// Relative distance to a power of a thousand within which a factor is taken for one of units.
 const NEAR: f64 = 0.03;
 
@@ -57,7 +105,11 @@ pub fn unit_factor(gain: f64) -> Option<f64> {
 }
 
 /// All rows: those that differ first, by what the gap would grow by without them.
-pub(super) fn rows(context: Context<'_>, selected: &Selected, source: &Identified) -> Vec<Row> {
+pub(super) fn rows<W: Workers>(
+    context: &Context<'_, W>,
+    selected: &Selected,
+    source: &Identified,
+) -> Vec<Row> {
     let (aligned, free) = with(context.base, &selected.differences);
     let open: Vec<Quantity> = quantities(context.base).filter(|q| !free.contains(q)).collect();
     let all = [&free[..], &open].concat();
@@ -68,16 +120,14 @@ pub(super) fn rows(context: Context<'_>, selected: &Selected, source: &Identifie
     let losses = context.losses(selected);
     let own: Vec<Quantity> = quantities(context.base).collect();
     let own_values = own_values(&source.system, &source.records, context.scale, &own);
+    let in_source = |quantity: Quantity| {
+        let at = own.iter().position(|q| *q == quantity);
+        at.map_or((in_base(context.base, quantity), 0.0), |at| own_values[at])
+    };
     let scale = unit_factor(aligned.sensor.gain).unwrap_or(1.0);
     let mut rows: Vec<Row> = Vec::new();
     for (k, quantity) in all.iter().enumerate() {
-        let differs = k < free.len();
-        let (effect, kind) = match quantity {
-            Quantity::Value(term, _) => (Some(aligned.terms[*term].law.effect()), RowKind::Effect),
-            _ => (None, RowKind::Parameter),
-        };
-        let of_base = own.iter().position(|q| q == quantity);
-        let (in_a, se_a) = of_base.map_or((in_base(context.base, *quantity), 0.0), |at| own_values[at]);
+        let (in_a, se_a) = in_source(*quantity);
         let (in_b, se) = if moves_reversals(&aligned, *quantity) {
             profiled(&aligned, *quantity, &free, context.stretches, (context.criterion, context.scale))
         } else {
@@ -88,30 +138,20 @@ pub(super) fn rows(context: Context<'_>, selected: &Selected, source: &Identifie
             Quantity::Delay => (in_a - in_b, 0.0),
             _ => (in_a, in_b),
         };
-        let gain = match place(context, selected, *quantity) {
+        let gain = match place(context.base, selected, *quantity) {
             Some(at) => losses[at],
             None => ((in_b - in_a) / se).powi(2),
         };
-        let unit = quantity.unit(&aligned);
-        let scale = if unit.is_of_output() && *quantity != Quantity::Offset { scale } else { 1.0 };
-        let odds = 0.5 * (gain - price(context.samples, 1));
-        rows.push(Row {
-            what: quantity.name(&aligned),
-            effect,
-            kind,
-            in_a: scale * in_a,
-            in_b: scale * in_b,
-            se_a: scale.abs() * se_a,
-            se: scale.abs() * se.hypot(se_a),
-            unit,
-            probability: 1.0 / (1.0 + (-odds).exp()),
-            differs,
-            closure: if differs && gap > 0.0 { gain / gap } else { 0.0 },
-            gain,
-        });
+        let row = Row::of(*quantity, &aligned, [(in_a, se_a), (in_b, se)], (gain, context.samples));
+        let row =
+            if row.unit.is_of_output() && *quantity != Quantity::Offset { row.times(scale) } else { row };
+        rows.push(if k < free.len() { row.differing(gain / gap) } else { row });
     }
     // Those that are the same stay in the order of the quantities.
-    rows[..free.len()].sort_by(|x, y| y.gain.total_cmp(&x.gain));
+    rows.sort_by(|x, y| match (x.differs, y.differs) {
+        (true, true) => y.gain.total_cmp(&x.gain),
+        _ => y.differs.cmp(&x.differs),
+    });
     rows
 }
 
@@ -130,8 +170,8 @@ fn in_base(base: &System, quantity: Quantity) -> f64 {
 }
 
 /// The difference that a quantity belongs to.
-fn place(context: Context<'_>, selected: &Selected, quantity: Quantity) -> Option<usize> {
-    let mut terms = context.base.terms.len();
+fn place(base: &System, selected: &Selected, quantity: Quantity) -> Option<usize> {
+    let mut terms = base.terms.len();
     let belongs = |d: &Difference| match d {
         Difference::Quantity(own, _) => *own == quantity,
         Difference::Effect(_) => {

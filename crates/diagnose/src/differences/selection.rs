@@ -3,6 +3,7 @@
 use super::reversals::{fit_across_reversals, moves_reversals};
 use super::surrogate::{gains, scores, starts};
 use crate::price::price;
+use crate::workers::Workers;
 use switchback_identify::record::{Criterion, Effort, Sensitivities, Stretch, fit};
 use switchback_model::system::{Quantity, Scale, System, Term};
 
@@ -29,20 +30,16 @@ impl Difference {
 /// The base with some differences, and the quantities by which these are described.
 pub(super) fn with(base: &System, differences: &[Difference]) -> (System, Vec<Quantity>) {
     let mut system = base.clone();
-    let mut free = Vec::new();
+    let (mut own, mut free) = (Vec::new(), Vec::new());
     for difference in differences {
-        if let Difference::Effect(term) = difference {
-            system.terms.push(term.clone());
-            free.extend(Quantity::of_term(&system, system.terms.len() - 1));
+        match difference {
+            Difference::Quantity(quantity, value) => own.push((*quantity, *value)),
+            Difference::Effect(term) => {
+                system.terms.push(term.clone());
+                free.extend(Quantity::of_term(&system, system.terms.len() - 1));
+            }
         }
     }
-    let mut own: Vec<(Quantity, f64)> = differences
-        .iter()
-        .filter_map(|d| match d {
-            Difference::Quantity(quantity, value) => Some((*quantity, *value)),
-            Difference::Effect(_) => None,
-        })
-        .collect();
     // Widths before slopes, slopes before curvatures: each leaves what is set after it to be set.
     own.sort_by_key(|(quantity, _)| *quantity);
     for (quantity, value) in &own {
@@ -81,8 +78,9 @@ const DELAYS: [f64; 6] = [-6.0, -3.0, -1.0, 1.0, 3.0, 6.0];
 const FACTORS: [f64; 4] = [0.0, 0.5, 1.5, 2.5];
 
 /// What a selection compares systems by.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Context<'a> {
+#[derive(Debug)]
+pub(super) struct Context<'a, W> {
+    pub(super) workers: &'a W,
     pub(super) base: &'a System,
     pub(super) stretches: &'a [Stretch],
     pub(super) criterion: &'a Criterion,
@@ -90,7 +88,7 @@ pub(super) struct Context<'a> {
     pub(super) samples: usize,
 }
 
-impl Context<'_> {
+impl<W: Workers> Context<'_, W> {
     fn fit(&self, differences: &[Difference], effort: Effort) -> Selected {
         let (start, free) = with(self.base, differences);
         let context = (self.criterion, self.scale);
@@ -152,30 +150,34 @@ impl Context<'_> {
             let value = quantity.value(&system);
             tries.extend(FACTORS.map(|factor| Difference::Quantity(quantity, factor * value)));
         }
-        let fits =
-            tries.into_iter().map(|d| self.fit(&[&now.differences[..], &[d]].concat(), Effort::SEARCH));
-        let best = fits.min_by(|x, y| self.worth(x).total_cmp(&self.worth(y)))?;
+        let fits = self.workers.map(&tries, |difference| {
+            self.fit(&[&now.differences[..], &[difference.clone()]].concat(), Effort::SEARCH)
+        });
+        let best = fits.into_iter().min_by(|x, y| self.worth(x).total_cmp(&self.worth(y)))?;
         let explained = Sensitivities::deviance(self.base, self.stretches, self.criterion) - now.deviance;
         let gained = now.deviance - best.deviance;
         (self.worth(&best) < self.worth(now) && gained > LEAST_SHARE * explained).then_some(best)
     }
 
-    /// The selection without one of its differences, the others fitted again.
-    fn without(&self, now: &Selected, number: usize) -> Selected {
-        let mut differences = now.differences.clone();
-        differences.remove(number);
-        self.fit(&differences, Effort::SEARCH)
+    /// The selection without each of its differences, the others fitted again.
+    fn without_each(&self, now: &Selected) -> Vec<Selected> {
+        let numbers: Vec<usize> = (0..now.differences.len()).collect();
+        self.workers.map(&numbers, |&number| {
+            let mut differences = now.differences.clone();
+            differences.remove(number);
+            self.fit(&differences, Effort::SEARCH)
+        })
     }
 
     /// For every difference the growth of the deviance without it, the others fitted again.
     pub(super) fn losses(&self, selected: &Selected) -> Vec<f64> {
-        let loss = |number| (self.without(selected, number).deviance - selected.deviance).max(0.0);
-        (0..selected.differences.len()).map(loss).collect()
+        let without = self.without_each(selected).into_iter();
+        without.map(|fewer| (fewer.deviance - selected.deviance).max(0.0)).collect()
     }
 
     fn without_the_needless(&self, mut now: Selected) -> Selected {
         loop {
-            let fewer = (0..now.differences.len()).map(|k| self.without(&now, k));
+            let fewer = self.without_each(&now).into_iter();
             match fewer.min_by(|x, y| self.worth(x).total_cmp(&self.worth(y))) {
                 Some(best) if self.worth(&best) <= self.worth(&now) => now = best,
                 _ => return now,

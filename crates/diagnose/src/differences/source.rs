@@ -2,6 +2,7 @@
 
 use super::surrogate::surrogate;
 use crate::evidence::nominal;
+use crate::workers::Workers;
 use switchback_identify::free::FreeError;
 use switchback_identify::record::{Criterion, Stretch};
 use switchback_model::Record;
@@ -42,13 +43,14 @@ impl Source {
     /// machine's noise in units of these.
     pub(super) fn identified(
         &self,
+        workers: &impl Workers,
         predicted: &[Record],
         noise: f64,
     ) -> Result<Option<Identified>, FreeError> {
         let stretches =
             |records: &[Record]| Stretch::all(&records.iter().map(|r| (r.v(), r.y())).collect::<Vec<_>>());
         Ok(match self {
-            Self::Predictions => surrogate(&predicted.iter().collect::<Vec<_>>(), noise)?
+            Self::Predictions => surrogate(workers, &predicted.iter().collect::<Vec<_>>(), noise)?
                 .map(|system| Identified { system, records: stretches(predicted), is_carried: true }),
             Self::Model(system) => {
                 Some(Identified { system: System::clone(system), records: Vec::new(), is_carried: false })
@@ -62,7 +64,11 @@ impl Source {
                     .map(|s| s.simulate(&first).iter().zip(&s.y).map(|(run, y)| y - run).collect())
                     .collect::<Vec<Vec<f64>>>();
                 let noise = Criterion::of(&errors).sd;
-                surrogate(&own, noise)?.map(|system| Identified { system, records, is_carried: false })
+                surrogate(workers, &own, noise)?.map(|system| Identified {
+                    system,
+                    records,
+                    is_carried: false,
+                })
             }
         })
     }

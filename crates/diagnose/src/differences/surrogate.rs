@@ -3,6 +3,7 @@
 use super::reversals::{fit_across_reversals, moves_reversals, profiled};
 use crate::evidence::{behind, nominal};
 use crate::price::price;
+use crate::workers::Workers;
 use nalgebra::{DMatrix, DVector};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
@@ -32,7 +33,8 @@ const MOST_HALVINGS: usize = 2;
 const STEP: Effort = Effort { iterations: 12, tolerance: 1e-5 };
 
 /// Everything that fits of a surrogate are compared by.
-struct Search<'a> {
+struct Search<'a, W> {
+    workers: &'a W,
     stretches: &'a [Stretch],
     criterion: Criterion,
     scale: Scale,
@@ -44,7 +46,11 @@ struct Search<'a> {
 /// `noise` is the standard deviation below which a misfit does not count: that of the machine's noise. The structure is identified from the records with such
 /// noise added, so that it has no more detail than the machine's records could show; all numbers are then fitted to the records themselves. An effect is taken where
 /// its gain exceeds the extended BIC's price of its parameters, and what an effect makes needless, a pole or another effect, is dropped.
-pub(super) fn surrogate(records: &[&Record], noise: f64) -> Result<Option<System>, FreeError> {
+pub(super) fn surrogate(
+    workers: &impl Workers,
+    records: &[&Record],
+    noise: f64,
+) -> Result<Option<System>, FreeError> {
     let noisy: Vec<Record> = records.iter().enumerate().map(|(k, r)| with_noise(r, noise, k)).collect();
     let Some(mut system) = nominal(&noisy.iter().collect::<Vec<_>>(), (None, None))? else { return Ok(None) };
     let pairs: Vec<(&[f64], &[f64])> = records.iter().map(|r| (r.v(), r.y())).collect();
@@ -52,6 +58,7 @@ pub(super) fn surrogate(records: &[&Record], noise: f64) -> Result<Option<System
     let samples = stretches.iter().map(|s| s.v.len()).sum();
     let criterion = Criterion { filter: Vec::new(), sd: noise };
     let search = Search {
+        workers,
         stretches: &stretches,
         criterion,
         scale: Scale::of(&system.linear, system.rule, &pairs),
@@ -65,9 +72,9 @@ pub(super) fn surrogate(records: &[&Record], noise: f64) -> Result<Option<System
     // A law that moves reversals passes for much else: where it gains, the structure is identified behind it.
     let (_, plain) = search.fit(&system, STEP);
     let behind = search.behind(&noisy.iter().collect::<Vec<_>>(), plain);
-    let starts = [system, without_dynamics].into_iter().chain(behind);
-    let grown = starts.map(|start| search.grown(&start));
-    let best = grown.min_by(|x, y| search.worth(x).total_cmp(&search.worth(y)));
+    let starts: Vec<System> = [system, without_dynamics].into_iter().chain(behind).collect();
+    let grown = workers.map(&starts, |start| search.grown(start));
+    let best = grown.into_iter().min_by(|x, y| search.worth(x).total_cmp(&search.worth(y)));
     Ok(best.map(|(best, _)| search.finished(&best)))
 }
 
@@ -78,7 +85,7 @@ fn with_noise(record: &Record, sd: f64, number: usize) -> Record {
     Record::new(record.v().to_vec(), y).expect("finite values of equal number")
 }
 
-impl Search<'_> {
+impl<W: Workers> Search<'_, W> {
     fn fit(&self, system: &System, effort: Effort) -> (System, f64) {
         let context = (&self.criterion, &self.scale);
         fit_across_reversals(system, &Quantity::coordinates(system), self.stretches, context, effort)
@@ -120,13 +127,14 @@ impl Search<'_> {
         if without < self.small() {
             return None;
         }
-        let moves = starts(&self.scale, &[]).into_iter().filter(|term| term.law.moves_reversals());
+        let mut moves = starts(&self.scale, &[]);
+        moves.retain(|term| term.law.moves_reversals());
         // Of a middling order, until its strength is known.
-        let fitted = moves.filter_map(|term| {
-            let start = behind(noisy, &term, Some(MIDDLING)).ok()??;
+        let fitted = self.workers.map(&moves, |term| {
+            let start = behind(noisy, term, Some(MIDDLING)).ok()??;
             Some(self.fit(&start, Effort::SEARCH))
         });
-        let (mut best, least) = fitted.min_by(|x, y| x.1.total_cmp(&y.1))?;
+        let (mut best, least) = fitted.into_iter().flatten().min_by(|x, y| x.1.total_cmp(&y.1))?;
         if least > LEAST_GAIN * without {
             return None;
         }
@@ -150,14 +158,16 @@ impl Search<'_> {
                 break;
             }
             let (now, terms) = (Quantity::coordinates(&system).len(), system.terms.len());
-            let tried = self.larger(&system).into_iter().map(|start| {
-                let (with, deviance) = self.fit(&start, Effort::SEARCH);
+            let tried = self.workers.map(&self.larger(&system), |start| {
+                let (with, deviance) = self.fit(start, Effort::SEARCH);
                 let more = Quantity::coordinates(&with).len().saturating_sub(now);
                 // Where borders and poles are enough, no effect stands for their shape: it costs nothing.
                 let is_enough = deviance < small && with.terms.len() == terms;
                 (if is_enough { 0.0 } else { deviance + price(self.samples, more) }, with, deviance)
             });
-            let Some((worth, best, least)) = tried.min_by(|x, y| x.0.total_cmp(&y.0)) else { break };
+            let Some((worth, best, least)) = tried.into_iter().min_by(|x, y| x.0.total_cmp(&y.0)) else {
+                break;
+            };
             if worth > deviance || least > LEAST_GAIN * deviance {
                 break;
             }
@@ -170,11 +180,11 @@ impl Search<'_> {
     /// Without the terms and poles that cost more than they explain.
     fn without_the_needless(&self, mut system: System, mut deviance: f64) -> (System, f64) {
         loop {
-            let fewer = smaller(&system).into_iter().map(|(start, saved)| {
-                let (system, deviance) = self.fit(&start, Effort::SEARCH);
-                (deviance - price(self.samples, saved), system, deviance)
+            let fewer = self.workers.map(&smaller(&system), |(start, saved)| {
+                let (system, deviance) = self.fit(start, Effort::SEARCH);
+                (deviance - price(self.samples, *saved), system, deviance)
             });
-            match fewer.min_by(|x, y| x.0.total_cmp(&y.0)) {
+            match fewer.into_iter().min_by(|x, y| x.0.total_cmp(&y.0)) {
                 Some((worth, ..)) if worth >= deviance => return (system, deviance),
                 Some((_, best, least)) => (system, deviance) = (best, least),
                 None => return (system, deviance),

@@ -4,7 +4,7 @@ use super::probability::probability;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use switchback_diagnose::Status;
-use switchback_diagnose::differences::{Differences, RowKind, is_imitation, unit_factor};
+use switchback_diagnose::differences::{Basis, Differences, RowKind, is_imitation, unit_factor};
 use switchback_io::diagnosis::{Report, ReportedDifference, Source, Units, digits, whole_percent};
 use switchback_io::output::{columns, wrapped};
 
@@ -115,7 +115,14 @@ pub(super) fn sentences(report: &Report, differences: &Differences) -> Vec<Strin
     let rows = reported(report, differences);
     let source = report.source.in_words();
     let (off, same): (Vec<_>, Vec<_>) = rows.iter().partition(|row| row.differs);
-    let is_imitation = report.diagnosis.classification.is_some() && is_imitation(&differences.rows);
+    if differences.basis == Basis::Nominal {
+        return vec![format!(
+            "On these records {source} runs as the model without effects that fits them best, so that the cause is what this model lacks, too. Single values that \
+             differ from the machine's ({}, in the table) make up for it.",
+            off.len()
+        )];
+    }
+    let is_imitation = differences.basis == Basis::Errors && is_imitation(&differences.rows);
     let mut sentences = Vec::new();
     match report.diagnosis.verdict.status {
         Status::None if off.is_empty() => {

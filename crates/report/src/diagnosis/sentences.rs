@@ -3,6 +3,7 @@
 use super::place;
 use super::probability::probability;
 use super::shift;
+use switchback_diagnose::differences::Basis;
 use switchback_diagnose::posterior::Classification;
 use switchback_diagnose::{Diagnosis, Effect, FittedParameter, Gap, Status, Verdict};
 use switchback_io::diagnosis::{Report, Source, Units, reported};
@@ -30,8 +31,14 @@ pub(super) fn verdict(report: &Report) -> Vec<String> {
         sentences.push(place::place(report).unwrap_or_else(|| "No place stands out on the map.".to_owned()));
     }
     if let Some(differences) = &diagnosis.differences {
-        // Where no few differences align the source the posterior says what is missing in it.
-        sentences.extend(diagnosis.classification.as_ref().map(|_| cause(diagnosis, &units)));
+        // Where no few differences align the source something else shows the cause.
+        if differences.basis != Basis::Differences {
+            sentences.push(cause(diagnosis, &units));
+        }
+        if differences.basis == Basis::Nominal {
+            sentences.extend(augments.then(|| closure(report)).into_iter().flatten());
+            sentences.extend(augments.then(|| remainder(diagnosis, &units)));
+        }
         sentences.extend(super::differences::sentences(report, differences));
         return sentences;
     }
