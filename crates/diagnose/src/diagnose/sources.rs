@@ -12,7 +12,9 @@ use super::given_model::GivenModel;
 use super::plan::{Plan, judged_scaled_records};
 use super::report::{Conclusion, Other};
 use crate::diagnosis::{Candidate, Diagnosis};
-use crate::differences::{Basis, Differences, MachineRecord, Source, causes, compare, is_imitation, missing};
+use crate::differences::{
+    Basis, Differences, MachineRecord, Source, causes, compare_with, is_imitation, missing,
+};
 use crate::effect::Effect;
 use crate::error::DiagnoseError;
 use crate::evidence::Judged;
@@ -154,7 +156,7 @@ fn differences(
         predicted: r.predicted.as_ref().filter(|p| whole(p, &r.record)).map(Vec::as_slice),
         is_fitted: r.usage == fitted,
     });
-    compare(workers, &machine.collect::<Vec<_>>(), &source).map_err(|error| refused(&error))
+    compare_with(workers, &machine.collect::<Vec<_>>(), &source).map_err(|error| refused(&error))
 }
 
 fn refused(error: &FreeError) -> DiagnoseError {

@@ -19,6 +19,6 @@ mod surrogate;
 
 pub use missing::is_imitation;
 pub(crate) use missing::{causes, missing};
-pub use pair::{Basis, Differences, MachineRecord, Shift, compare};
+pub use pair::{Basis, Differences, MachineRecord, Shift, compare, compare_with};
 pub use rows::{Row, RowKind, unit_factor};
 pub use source::Source;

@@ -5,7 +5,7 @@ use super::rows::{Row, rows};
 use super::selection::{Context, Difference, with};
 use super::source::Source;
 use crate::evidence::nominal;
-use crate::workers::Workers;
+use crate::workers::{Serial, Workers};
 use switchback_identify::free::FreeError;
 use switchback_identify::record::{Criterion, Stretch};
 use switchback_model::Record;
@@ -71,7 +71,15 @@ const ROUNDS: usize = 3;
 ///
 /// # Errors
 /// [`FreeError`] where one of both sides cannot be identified.
-pub fn compare(
+pub fn compare(machine: &[MachineRecord<'_>], source: &Source) -> Result<Option<Differences>, FreeError> {
+    compare_with(&Serial, machine, source)
+}
+
+/// [`compare`], its independent pieces of work given to `workers`; the answer does not depend on them.
+///
+/// # Errors
+/// As [`compare`].
+pub fn compare_with(
     workers: &impl Workers,
     machine: &[MachineRecord<'_>],
     source: &Source,
