@@ -12,12 +12,17 @@
 //! | [`reversal`] | the branch of every sample, and the strokes between reversals |
 //! | [`noise_model`] | the autoregression of the noise |
 //! | [`spectrum`], [`sums`] | periodograms and autocorrelations of signals; inner products |
+//! | [`alignment`] | sign, factor and delay between two outputs |
+//! | [`change_point`], [`energy`] | instants at which a regression changes; energy of errors over cells |
 //! | [`stray`] | samples that no measurement can be |
 //! | [`system`] | a machine with terms for effects: simulated, differentiated, compared |
 //! | [`step`] | a causal model as a small program, run here or printed as C |
 //!
 //! The crate is pure: no files, clocks, threads or ambient randomness.
 
+pub mod alignment;
+pub mod change_point;
+pub mod energy;
 pub mod hysteresis;
 pub mod linear;
 pub mod noise_model;
@@ -29,5 +34,7 @@ pub mod step;
 pub mod stray;
 pub mod sums;
 pub mod system;
+#[cfg(test)]
+mod testing;
 
 pub use record::Record;

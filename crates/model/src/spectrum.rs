@@ -182,16 +182,8 @@ pub fn moving_average(signals: &[Vec<f64>], degree: usize) -> Vec<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::testing::white;
     use proptest::prelude::*;
-
-    /// A white sequence of variance 1.
-    fn white() -> impl FnMut() -> f64 {
-        let mut state = 1_u64;
-        move || {
-            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-            ((state >> 11) as f64 / (1_u64 << 53) as f64 - 0.5) * 12.0_f64.sqrt()
-        }
-    }
 
     /// The oracle: the sum that defines the transform.
     fn power_by_definition(signal: &[f64], padded: usize) -> Vec<f64> {

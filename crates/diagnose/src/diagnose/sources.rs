@@ -9,6 +9,7 @@ use switchback_model::system::{Borders, LinearPart, Sensor, System};
 
 use super::classified::OUTSIDE;
 use super::given_model::GivenModel;
+use super::own::of_own_model;
 use super::plan::{Plan, judged_scaled_records};
 use super::report::{Conclusion, Other};
 use crate::diagnosis::{Candidate, Diagnosis};
@@ -80,7 +81,7 @@ fn of_own_nominal(
     (rig, settings): (&Rig, &Settings),
     found: &Differences,
 ) -> Result<Option<Diagnosis>, DiagnoseError> {
-    let own = super::diagnose_with(workers, rig, Model::Identify, settings)?;
+    let own = of_own_model(workers, rig, settings)?;
     let (mut apart, mut missed) = (0.0, 0.0);
     for series in &own.series {
         let Some(at) = rig.records.iter().position(|r| r.name == series.record) else { return Ok(None) };

@@ -8,7 +8,6 @@
 //! (`surrogate`). The carrier `c` keeps everything that the system leaves open, so that at `δ = 0` the prediction is exactly the source's own. Each quantity of the
 //! system, and each effect that it lacks, is a candidate for a difference; stepwise selection finds those that the machine's records call for (`selection`).
 
-mod alignment;
 mod missing;
 mod pair;
 mod reversals;

@@ -1,6 +1,5 @@
 //! The comparison itself.
 
-use super::alignment::{Alignment, align, regression};
 use super::rows::{Row, rows};
 use super::selection::{Context, Difference, with};
 use super::source::Source;
@@ -9,6 +8,7 @@ use crate::workers::{Serial, Workers};
 use switchback_identify::free::FreeError;
 use switchback_identify::record::{Criterion, Stretch};
 use switchback_model::Record;
+use switchback_model::alignment::{Alignment, align, regression};
 use switchback_model::stray::screened;
 use switchback_model::system::{Quantity, Scale, System};
 

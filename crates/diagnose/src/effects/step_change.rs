@@ -26,7 +26,7 @@ use crate::likelihood::design::Design;
 use crate::likelihood::engine::{Fit, NonlinearParameter};
 use crate::model::augmented::{AugmentedModel, Clock, Slow};
 use crate::records::dataset::Dataset;
-use crate::residuals::change_point::{ChangePoint, change_points, likeliest};
+use switchback_model::change_point::{ChangePoint, change_points, likeliest};
 
 pub(super) const CARD: Card = Card {
     confounded_effects: &[Effect::GainDrift, Effect::BorderWear],

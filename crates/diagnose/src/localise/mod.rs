@@ -1,8 +1,8 @@
 //! Where the gap lies: excess energy of the one-step residuals over cells of several axes.
 
-mod energy;
+use statrs::distribution::{ContinuousCDF, Normal};
+use switchback_model::energy::{Blocks, Portion, false_discovery_rates, portions};
 
-use self::energy::{Blocks, Portion, false_discovery_rates, portions, upper_tail};
 use crate::diagnosis::{Cell, CellInterval, CellUnit};
 use crate::likelihood::engine::Fit;
 use crate::records::dataset::Dataset;
@@ -39,6 +39,11 @@ impl Residuals {
 const BLOCKS: Blocks = Blocks { length: 25, variance: 2.0 };
 /// Samples that a cell must hold.
 const FEWEST: usize = 10;
+
+/// Probability that a standard normal deviate is larger.
+fn upper_tail(deviate: f64) -> f64 {
+    Normal::standard().sf(deviate)
+}
 
 /// The map of residuals over a noise floor `variance`.
 ///
@@ -177,7 +182,7 @@ impl Map {
         let rates = |p: fn(&Portion) -> f64| {
             false_discovery_rates(&self.cells.iter().map(|found| p(&found.portion)).collect::<Vec<_>>())
         };
-        let (excess, density) = (rates(|p| p.excess), rates(|p| p.density));
+        let (excess, density) = (rates(|p| upper_tail(p.excess)), rates(|p| upper_tail(p.density)));
         let judged = self.cells.into_iter().zip(excess).zip(density);
         let cell = |((found, q_value), enrichment_q_value): ((Found, f64), f64)| Cell {
             axis: found.axis,
@@ -243,7 +248,7 @@ fn spectrum_cells(innovations: &[Vec<f64>], variance: f64, sample_time: f64) -> 
     let found = |(band, ((cell, interval), portion)): (usize, ((String, Option<CellInterval>), Portion))| {
         let energy: f64 = ordinates.iter().filter(|o| o.1 == Some(band)).map(|o| o.0).sum();
         // White noise shows the bands' variance; segments are too few to do so.
-        let excess = upper_tail(energy, segments * (SEGMENT / 2 / BANDS) as f64);
+        let excess = energy / (segments * (SEGMENT / 2 / BANDS) as f64).sqrt();
         Found {
             axis: "frequency",
             cell,

@@ -1,6 +1,5 @@
 //! What is left: tests of the residuals against causes in general, their spectra and scores.
 
-pub(crate) mod change_point;
 pub(crate) mod clustering;
 pub(crate) mod horizons;
 pub(crate) mod noise_size;

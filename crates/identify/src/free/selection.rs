@@ -118,7 +118,12 @@ impl Search<'_> {
         let mut coarse = assessed(structures);
         while let Some(later) = self.later(structures, &coarse) {
             self.progress.found(2 * later.len());
-            coarse.extend(assessed(&later));
+            let more = assessed(&later);
+            // Too few samples are left beside so long a delay.
+            if more.is_empty() {
+                break;
+            }
+            coarse.extend(more);
         }
         let Some(middling) = least(&coarse) else { return Err(self.refusal(top, structures)) };
         let by_knots = self.along(middling, knots, first_knots);

@@ -10,11 +10,11 @@
 
 /// Where coefficients change.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct ChangePoint {
+pub struct ChangePoint {
     /// First sample after the change.
-    pub(crate) at: usize,
+    pub at: usize,
     /// By how much `β` changes.
-    pub(crate) change: f64,
+    pub change: f64,
     /// Sum of squares that the change explains.
     gain: f64,
 }
@@ -25,7 +25,7 @@ const LEAST: usize = 8;
 const ALIKE: f64 = 1e-9;
 
 /// All changes of the regression of `e` on `s` with enough samples on either side.
-pub(crate) fn change_points(e: &[f64], s: &[f64]) -> Vec<ChangePoint> {
+pub fn change_points(e: &[f64], s: &[f64]) -> Vec<ChangePoint> {
     let n = e.len().min(s.len());
     let mut sums = vec![Sums::default()];
     sums.extend(e.iter().zip(s).scan(Sums::default(), |sum, (e, s)| {
@@ -42,7 +42,7 @@ pub(crate) fn change_points(e: &[f64], s: &[f64]) -> Vec<ChangePoint> {
 }
 
 /// The likeliest of some changes, best first: at most `count`, each `apart` samples from those before it.
-pub(crate) fn likeliest(points: &[ChangePoint], count: usize, apart: usize) -> Vec<ChangePoint> {
+pub fn likeliest(points: &[ChangePoint], count: usize, apart: usize) -> Vec<ChangePoint> {
     let mut found: Vec<ChangePoint> = Vec::new();
     for _ in 0..count {
         let is_new = |p: &&ChangePoint| found.iter().all(|f| f.at.abs_diff(p.at) >= apart);

@@ -1,26 +1,28 @@
-//! First look at a pair: sign, factor and delay, by one regression of the measured output on the shifted prediction.
+//! Sign, factor and delay between two outputs, by one regression of either on the shifted other.
 
 /// `y ≈ factor·y_A(t − delay) + constant`.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Alignment {
-    pub(super) factor: f64,
-    pub(super) delay: isize,
+pub struct Alignment {
+    /// Factor; negative where a sign is turned.
+    pub factor: f64,
+    /// Delay, samples.
+    pub delay: isize,
     /// Share of the variance of `y` that it explains.
-    pub(super) explained: f64,
+    pub explained: f64,
 }
 
 /// Whole delays tried, either way.
 const MOST_DELAY: isize = 30;
 
 /// The regression of the delay that explains most; records are given as `(y, y_A)`.
-pub(super) fn align(records: &[(&[f64], &[f64])]) -> Option<Alignment> {
+pub fn align(records: &[(&[f64], &[f64])]) -> Option<Alignment> {
     let tried = (-MOST_DELAY..=MOST_DELAY).filter_map(|delay| regression(records, delay));
     // Of equals the delay nearest to none.
     tried.max_by(|x, y| x.explained.total_cmp(&y.explained).then(y.delay.abs().cmp(&x.delay.abs())))
 }
 
 /// The regression at a delay; none where either signal is constant.
-pub(super) fn regression(records: &[(&[f64], &[f64])], delay: isize) -> Option<Alignment> {
+pub fn regression(records: &[(&[f64], &[f64])], delay: isize) -> Option<Alignment> {
     if records.is_empty() {
         return None;
     }
