@@ -151,7 +151,7 @@ impl<W: Workers> Context<'_, W> {
             tries.extend(FACTORS.map(|factor| Difference::Quantity(quantity, factor * value)));
         }
         let fits = self.workers.map(&tries, |difference| {
-            self.fit(&[&now.differences[..], &[difference.clone()]].concat(), Effort::SEARCH)
+            self.fit(&[&now.differences[..], std::slice::from_ref(difference)].concat(), Effort::SEARCH)
         });
         let best = fits.into_iter().min_by(|x, y| self.worth(x).total_cmp(&self.worth(y)))?;
         let explained = Sensitivities::deviance(self.base, self.stretches, self.criterion) - now.deviance;
