@@ -33,7 +33,7 @@ use crate::workers::{Serial, Workers};
 /// Identifies (or takes) the nominal model, fits every effect of the library together with it, ranks them by penalised
 /// likelihood, tests what the best leaves, and measures how far it closes the gap on the held-out records. Where nobody designed the records
 /// and no order is declared, a trained [posterior](crate::posterior) decides, if the settings have one, and the effects that it finds likely are fitted;
-/// without one the [built-in](Posterior::built_in) posterior is asked where rules show none of the candidates.
+/// without one the [built-in](crate::posterior::Posterior::built_in) posterior is asked where rules show none of the candidates.
 ///
 /// # Errors
 /// [`DiagnoseError`] where nothing can be judged; what can be judged only in part becomes a
