@@ -85,7 +85,7 @@ fn analyse(
         return Ok((steps, Vec::new()));
     }
     let runs = Analysis::run(workers, plan(chosen)?);
-    // What a simulator leaves alone may be what it cannot see.
+    // A simulator may be blind to an effect that it leaves alone.
     Ok(match (verdict.status, runs.conclusion.verdict.status) {
         (Status::Unexplained, Status::None) => (steps, vec![runs]),
         _ => (runs, vec![steps]),
@@ -93,7 +93,7 @@ fn analyse(
 }
 
 /// The analysis on a nominal model with room for the machine's own dynamics, where one of those, or a delay, would be reported and a higher
-/// order or another delay does the same on the held-out records. What that one shows counts, unless it is such an effect again, or
+/// order or another delay does the same on the held-out records. Its verdict counts, unless it is such an effect again, or
 /// nothing of use: then the order is the answer.
 fn with_room_for_dynamics(
     workers: &impl Workers,

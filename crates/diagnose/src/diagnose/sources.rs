@@ -59,7 +59,7 @@ pub(super) fn compared(
     else {
         return Ok(diagnosis);
     };
-    if let Some(own) = of_own_nominal(workers, (&rig, settings), &found)? {
+    if let Some(own) = of_own_nominal(workers, (&rig, settings), &found) {
         return Ok(Diagnosis { differences: Some(Differences { basis: Basis::Nominal, ..found }), ..own });
     }
     let posterior = settings.posterior.as_deref().unwrap_or_else(|| Posterior::built_in());
@@ -75,22 +75,22 @@ pub(super) fn compared(
 const NEAR: f64 = 0.1;
 
 /// The diagnosis of the machine's own nominal model, where the source runs as this does on the held-out records: a source fitted to the machine without an effect
-/// has all its values off, and lacks the same as any other that is fitted so.
+/// has all its values off, and lacks the same as any other that is fitted so. None where it runs otherwise, or the rig shows no model of its own.
 fn of_own_nominal(
     workers: &impl Workers,
     (rig, settings): (&Rig, &Settings),
     found: &Differences,
-) -> Result<Option<Diagnosis>, DiagnoseError> {
-    let own = of_own_model(workers, rig, settings)?;
+) -> Option<Diagnosis> {
+    let own = of_own_model(workers, rig, settings).ok()?;
     let (mut apart, mut missed) = (0.0, 0.0);
     for series in &own.series {
-        let Some(at) = rig.records.iter().position(|r| r.name == series.record) else { return Ok(None) };
+        let at = rig.records.iter().position(|r| r.name == series.record)?;
         let source = &found.runs[at][0];
         let square = |y: &[f64]| source.iter().zip(y).map(|(run, y)| (run - y).powi(2)).sum::<f64>();
         apart += square(&series.nominal);
         missed += square(&series.measured);
     }
-    Ok((apart < NEAR * missed).then_some(own))
+    (apart < NEAR * missed).then_some(own)
 }
 
 /// The diagnosis with the verdict of the posterior.
