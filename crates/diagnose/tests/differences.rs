@@ -158,7 +158,7 @@ fn an_effect_that_the_simulator_lacks_is_named_with_its_size() {
 fn a_play_of_the_simulators_own_is_found_behind_a_dead_time() {
     let late = Machine { late: 4, zeta: 0.3, ..SOUND };
     only(&beside(Machine { play: 0.6, ..late }, late, 61), "play", -0.4);
-    // Between two teeth of the deviance a play and the friction of straight borders are told apart by nothing.
+    // Between two teeth of the deviance nothing separates a play from the friction of straight borders.
     let found = beside(Machine { play: 0.0, ..late }, late, 62);
     let [row] = off(&found)[..] else { panic!("{:#?}", off(&found)) };
     assert!(row.what == "play" && row.in_b == 0.0 && (row.in_a - 1.0).abs() < 0.02, "{row:?}");

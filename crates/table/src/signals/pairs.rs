@@ -129,8 +129,8 @@ impl Known {
 fn telling(name: &[String]) -> Vec<String> {
     const PARTS: [Words; 5] =
         [words::COMMAND, words::RESPONSE, words::ACTUAL, words::NEUTRAL, words::CONTROLLER];
-    let tells = |word: &&String| !PARTS.iter().any(|list| words::has(list, word));
-    name.iter().filter(tells).collect::<BTreeSet<_>>().into_iter().cloned().collect()
+    let distinguishes = |word: &&String| !PARTS.iter().any(|list| words::has(list, word));
+    name.iter().filter(distinguishes).collect::<BTreeSet<_>>().into_iter().cloned().collect()
 }
 
 fn likeness(command: &Name, response: &Name, table: &Table) -> Option<Likeness> {
