@@ -64,7 +64,7 @@ pub struct Shift {
     pub se: f64,
 }
 
-/// Rounds of selection, each with the noise model of the errors that the last one left.
+/// Rounds of selection at most, each with the noise model of the errors that the last one left.
 const ROUNDS: usize = 3;
 
 /// Compares a machine with a source. None where the machine or the source has no gain at rest, so that no system of the kind describes it.
@@ -92,7 +92,7 @@ pub fn compare_with(
     let fitted: Vec<&Record> = used.iter().map(|&k| &screened[k]).collect();
     let plain: Vec<Stretch> = used.iter().map(|&k| all[k].clone()).collect();
     let Some(own) = nominal(&fitted, (None, None))? else { return Ok(None) };
-    let mut criterion = Criterion { filter: Vec::new(), sd: Criterion::of(&errors(&own, &plain)).sd };
+    let criterion = Criterion { filter: Vec::new(), sd: Criterion::of(&errors(&own, &plain)).sd };
     let predicted: Vec<Record> = used
         .iter()
         .filter_map(|&k| Record::new(screened[k].v().to_vec(), machine[k].predicted?.to_vec()).ok())
@@ -111,25 +111,20 @@ pub fn compare_with(
     let scale =
         Scale::of(&base.linear, base.rule, &plain.iter().map(|s| (&s.v[..], &s.y[..])).collect::<Vec<_>>());
     let samples = plain.iter().map(|s| s.v.len()).sum();
-    let mut start = start(regression(&outputs, 0), aligned);
-    let mut rounds = (0..ROUNDS).map(|_| {
-        let context = Context {
-            workers,
-            base: &base,
-            stretches: &stretches,
-            criterion: &criterion,
-            scale: &scale,
-            samples,
-        };
-        let selected = context.select(start.clone());
-        let (system, _) = with(&base, &selected.differences);
-        let table = rows(&context, &selected, &found);
-        start = selected.differences;
-        criterion = Criterion::of(&errors(&system, &stretches));
-        (table, system, criterion.sd)
-    });
-    let Some((rows, aligned, noise)) = rounds.by_ref().last() else { return Ok(None) };
-    drop(rounds);
+    let mut context =
+        Context { workers, base: &base, stretches: &stretches, criterion, scale: &scale, samples };
+    let mut selected = context.select(start(regression(&outputs, 0), aligned));
+    for _ in 1..ROUNDS {
+        context.criterion = Criterion::of(&errors(&with(&base, &selected.differences).0, &stretches));
+        let before = selected;
+        selected = context.reselect(&before.differences);
+        if selected.is_of_the_kinds_of(&before) {
+            break;
+        }
+    }
+    let rows = rows(&context, &selected, &found);
+    let (aligned, _) = with(&base, &selected.differences);
+    let noise = Criterion::of(&errors(&aligned, &stretches)).sd;
     let runs: Vec<[Vec<f64>; 2]> = machine
         .iter()
         .zip(&all)

@@ -66,6 +66,21 @@ pub(super) struct Selected {
     pub(super) deviance: f64,
 }
 
+impl Selected {
+    /// Whether the same quantities and effects differ.
+    pub(super) fn is_of_the_kinds_of(&self, other: &Self) -> bool {
+        let is_like = |(own, other): (&Difference, &Difference)| match (own, other) {
+            (Difference::Quantity(own, _), Difference::Quantity(other, _)) => own == other,
+            (Difference::Effect(own), Difference::Effect(other)) => {
+                (own.law.effect(), own.law.name()) == (other.law.effect(), other.law.name())
+            }
+            _ => false,
+        };
+        self.differences.len() == other.differences.len()
+            && self.differences.iter().zip(&other.differences).all(is_like)
+    }
+}
+
 /// Candidates that are fitted at each step, of those that are scored.
 const FITTED: usize = 5;
 /// A further difference must explain this share of what those before it explain: less is no difference that anybody would act on.
@@ -83,7 +98,8 @@ pub(super) struct Context<'a, W> {
     pub(super) workers: &'a W,
     pub(super) base: &'a System,
     pub(super) stretches: &'a [Stretch],
-    pub(super) criterion: &'a Criterion,
+    /// The criterion of the errors that remain.
+    pub(super) criterion: Criterion,
     pub(super) scale: &'a Scale,
     pub(super) samples: usize,
 }
@@ -91,7 +107,7 @@ pub(super) struct Context<'a, W> {
 impl<W: Workers> Context<'_, W> {
     fn fit(&self, differences: &[Difference], effort: Effort) -> Selected {
         let (start, free) = with(self.base, differences);
-        let context = (self.criterion, self.scale);
+        let context = (&self.criterion, self.scale);
         let of = if effort == Effort::FINAL { fit_across_reversals } else { fit };
         let (system, deviance) = of(&start, &free, self.stretches, context, effort);
         Selected { differences: read(&system, self.base, differences), deviance }
@@ -112,6 +128,12 @@ impl<W: Workers> Context<'_, W> {
         self.without_the_needless(self.fit(&best.differences, Effort::FINAL))
     }
 
+    /// The search over all candidates from the selection under another criterion.
+    pub(super) fn reselect(&self, start: &[Difference]) -> Selected {
+        let best = self.stepwise(self.fit(start, Effort::SEARCH), true);
+        self.without_the_needless(self.fit(&best.differences, Effort::FINAL))
+    }
+
     /// Stepwise: the candidate that gains most is taken while it gains more than its price, and after each step those are dropped that no longer do.
     fn stepwise(&self, mut now: Selected, with_effects: bool) -> Selected {
         loop {
@@ -129,7 +151,7 @@ impl<W: Workers> Context<'_, W> {
     /// The best addition, if it gains more than its price.
     fn best_addition(&self, now: &Selected, with_effects: bool) -> Option<Selected> {
         let (system, taken) = with(self.base, &now.differences);
-        let context = (self.criterion, self.scale);
+        let context = (&self.criterion, self.scale);
         let mut tries: Vec<(f64, Difference)> = Vec::new();
         let open: Vec<Quantity> = quantities(self.base).filter(|q| !taken.contains(q)).collect();
         let all = [&taken[..], &open].concat();
@@ -154,7 +176,7 @@ impl<W: Workers> Context<'_, W> {
             self.fit(&[&now.differences[..], std::slice::from_ref(difference)].concat(), Effort::SEARCH)
         });
         let best = fits.into_iter().min_by(|x, y| self.worth(x).total_cmp(&self.worth(y)))?;
-        let explained = Sensitivities::deviance(self.base, self.stretches, self.criterion) - now.deviance;
+        let explained = Sensitivities::deviance(self.base, self.stretches, &self.criterion) - now.deviance;
         let gained = now.deviance - best.deviance;
         (self.worth(&best) < self.worth(now) && gained > LEAST_SHARE * explained).then_some(best)
     }
