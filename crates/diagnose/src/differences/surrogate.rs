@@ -72,7 +72,14 @@ pub(super) fn surrogate(
     // A law that moves reversals passes for much else: where it gains, the structure is identified behind it.
     let (_, plain) = search.fit(&system, STEP);
     let behind = search.behind(&noisy.iter().collect::<Vec<_>>(), plain);
-    let starts: Vec<System> = [system, without_dynamics].into_iter().chain(behind).collect();
+    // And poles that the noise asks for may have passed for a simpler system's: it begins once with each smaller order.
+    let orders: Vec<usize> = (1..system.linear.a().len().min(MIDDLING + 1)).collect();
+    let simpler = workers.map(&orders, |order| {
+        let simpler = nominal(&noisy.iter().collect::<Vec<_>>(), (Some(*order), None)).ok()??;
+        Some(System { linear: simpler.linear.widened(), ..simpler })
+    });
+    let starts: Vec<System> =
+        [system, without_dynamics].into_iter().chain(behind).chain(simpler.into_iter().flatten()).collect();
     let grown = workers.map(&starts, |start| search.grown(start));
     let best = grown.into_iter().min_by(|x, y| search.worth(x).total_cmp(&search.worth(y)));
     Ok(best.map(|(best, _)| search.finished(&best)))
@@ -119,7 +126,7 @@ impl<W: Workers> Search<'_, W> {
     /// Deviance and price of all its numbers.
     fn worth(&self, (system, deviance): &(System, f64)) -> f64 {
         // A misfit below the one that matters is none.
-        deviance.max(self.small()) + price(self.samples, Quantity::coordinates(system).len())
+        deviance.max(self.small()) + price(self.samples, charged(system))
     }
 
     /// The system identified behind a law that moves reversals, and that law fitted with it; none where no start of one gains on the deviance without any.
@@ -157,10 +164,10 @@ impl<W: Workers> Search<'_, W> {
             if deviance < small {
                 break;
             }
-            let (now, terms) = (Quantity::coordinates(&system).len(), system.terms.len());
+            let (now, terms) = (charged(&system), system.terms.len());
             let tried = self.workers.map(&self.larger(&system), |start| {
                 let (with, deviance) = self.fit(start, Effort::SEARCH);
-                let more = Quantity::coordinates(&with).len().saturating_sub(now);
+                let more = charged(&with).saturating_sub(now);
                 // Where borders and poles are enough, no effect stands for their shape: it costs nothing.
                 let is_enough = deviance < small && with.terms.len() == terms;
                 (if is_enough { 0.0 } else { deviance + price(self.samples, more) }, with, deviance)
@@ -226,6 +233,12 @@ impl<W: Workers> Search<'_, W> {
         scored.sort_by(|x, y| y.0.total_cmp(&x.0));
         scored.into_iter().take(FITTED).map(|(_, term)| term).collect()
     }
+}
+
+/// Numbers of a system that have a price: borders are curves, and their knots only what it takes to draw them.
+fn charged(system: &System) -> usize {
+    let coordinates = Quantity::coordinates(system);
+    coordinates.iter().filter(|q| !matches!(q, Quantity::Knot(_))).count()
 }
 
 /// The same on borders with knots at a share of their mean distance.
