@@ -164,6 +164,23 @@ fn a_play_of_the_simulators_own_is_found_behind_a_dead_time() {
     assert!(row.what == "play" && row.in_b == 0.0 && (row.in_a - 1.0).abs() < 0.02, "{row:?}");
 }
 
+/// A simulator begins on its ascending border whatever its first move is, and shows a dead time later that it was another one.
+#[test]
+fn a_simulator_that_begins_on_the_other_border_keeps_its_order() {
+    let mut v = walk(42, 4000);
+    let first = v[1] - v[0];
+    v.iter_mut().for_each(|v| *v *= -first.signum());
+    let simulator = Machine { play: 0.0, late: 4, omega: 0.2, zeta: 0.3, ..SOUND };
+    let record = measured(Machine { omega: 0.3, ..simulator }, &v, 0.3, 1042);
+    let predicted = simulator.run(&v);
+    let machine = [MachineRecord { record: &record, predicted: Some(&predicted), is_fitted: true }];
+    let found = compare(&machine, &Source::Predictions).expect("a comparison").expect("a gain at rest");
+    assert_eq!(found.source.linear.a().len(), 2);
+    only(&found, "frequency", 0.1);
+    let row = off(&found)[0];
+    assert!((row.in_a / 0.2 - 1.0).abs() < 1e-3, "{row:?}");
+}
+
 #[test]
 fn several_values_that_are_off_are_all_found() {
     let other = Machine { friction: 4.0, late: 2, zero: 1.0, ..SOUND };

@@ -5,7 +5,8 @@
 //! ```
 //!
 //! `y_A` is the prediction of the source on the machine's records, `ŷ_s` a system identified from `(v, y_A)`, with the effects of that side
-//! (`surrogate`). The carrier `c` keeps everything that the system leaves open, so that at `δ = 0` the prediction is exactly the source's own. Each quantity of the
+//! (`surrogate`). The carrier `c` keeps everything that the system leaves open, so that at `δ = 0` the prediction is exactly the source's own;
+//! where differences are fitted it lacks the traces of the source's initial state, which is not the machine's. Each quantity of the
 //! system, and each effect that it lacks, is a candidate for a difference; stepwise selection finds those that the machine's records call for (`selection`).
 
 mod missing;

@@ -6,7 +6,7 @@ use super::source::Source;
 use crate::evidence::nominal;
 use crate::workers::{Serial, Workers};
 use switchback_identify::free::FreeError;
-use switchback_identify::record::{Criterion, Stretch};
+use switchback_identify::record::{Criterion, Stretch, filter_and_project};
 use switchback_model::Record;
 use switchback_model::alignment::{Alignment, align, regression};
 use switchback_model::stray::screened;
@@ -90,8 +90,9 @@ pub fn compare_with(
         |m: &MachineRecord<'_>| m.is_fitted && (*source != Source::Predictions || m.predicted.is_some());
     let used: Vec<usize> = (0..machine.len()).filter(|&k| is_used(&machine[k])).collect();
     let fitted: Vec<&Record> = used.iter().map(|&k| &screened[k]).collect();
-    let plain: Vec<Stretch> = used.iter().map(|&k| all[k].clone()).collect();
     let Some(own) = nominal(&fitted, (None, None))? else { return Ok(None) };
+    let plain: Vec<Stretch> =
+        used.iter().map(|&k| all[k].clone().behind_earlier_inputs(&own.linear, 0)).collect();
     let criterion = Criterion { filter: Vec::new(), sd: Criterion::of(&errors(&own, &plain)).sd };
     let predicted: Vec<Record> = used
         .iter()
@@ -103,11 +104,16 @@ pub fn compare_with(
     let noise = criterion.sd / aligned.map_or(1.0, |a| a.factor.abs().max(f64::MIN_POSITIVE));
     let Some(found) = source.identified(workers, &predicted, noise)? else { return Ok(None) };
     let base = found.base(own.rule);
-    let carried = |stretch: &Stretch, predicted: Option<&[f64]>| match predicted {
-        Some(predicted) if found.is_carried => stretch.carrying(&base, predicted),
-        _ => stretch.clone(),
+    // A machine that is later than the source depends on earlier inputs for as long.
+    let later = aligned.map_or(0, |a| a.delay.max(0).unsigned_abs());
+    let fitted_stretch = |&k: &usize| {
+        let stretch = all[k].clone().behind_earlier_inputs(&base.linear, later);
+        match machine[k].predicted {
+            Some(predicted) if found.is_carried => stretch.carrying_without_initial_state(&base, predicted),
+            _ => stretch,
+        }
     };
-    let stretches: Vec<Stretch> = used.iter().map(|&k| carried(&all[k], machine[k].predicted)).collect();
+    let stretches: Vec<Stretch> = used.iter().map(fitted_stretch).collect();
     let scale =
         Scale::of(&base.linear, base.rule, &plain.iter().map(|s| (&s.v[..], &s.y[..])).collect::<Vec<_>>());
     let samples = plain.iter().map(|s| s.v.len()).sum();
@@ -129,7 +135,10 @@ pub fn compare_with(
         .iter()
         .zip(&all)
         .map(|(m, stretch)| {
-            let stretch = carried(stretch, m.predicted);
+            let stretch = match m.predicted {
+                Some(predicted) if found.is_carried => stretch.carrying(&base, predicted),
+                _ => stretch.clone(),
+            };
             [stretch.simulate(&base), stretch.simulate(&aligned)]
         })
         .collect();
@@ -148,9 +157,14 @@ pub fn compare_with(
     }))
 }
 
-/// Errors of the free runs.
+/// Errors of the free runs, without the traces of initial states.
 fn errors(system: &System, stretches: &[Stretch]) -> Vec<Vec<f64>> {
-    let of = |s: &Stretch| s.simulate(system).iter().zip(&s.y).map(|(run, y)| y - run).collect();
+    let unfiltered = Criterion { filter: Vec::new(), sd: 1.0 };
+    let of = |s: &Stretch| {
+        let mut error = [s.simulate(system).iter().zip(&s.y).map(|(run, y)| y - run).collect::<Vec<f64>>()];
+        filter_and_project(system, s, &mut error, &unfiltered);
+        error[0].split_off(s.skipped)
+    };
     stretches.iter().map(of).collect()
 }
 

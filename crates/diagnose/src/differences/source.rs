@@ -1,6 +1,6 @@
 //! A source that a machine is compared with.
 
-use super::surrogate::surrogate;
+use super::surrogate::{stretches, surrogate};
 use crate::evidence::nominal;
 use crate::workers::Workers;
 use switchback_identify::free::FreeError;
@@ -47,28 +47,24 @@ impl Source {
         predicted: &[Record],
         noise: f64,
     ) -> Result<Option<Identified>, FreeError> {
-        let stretches =
-            |records: &[Record]| Stretch::all(&records.iter().map(|r| (r.v(), r.y())).collect::<Vec<_>>());
+        let found = |records: &[Record], noise, is_carried| {
+            let records: Vec<&Record> = records.iter().collect();
+            let system = surrogate(workers, &records, noise)?;
+            Ok(system.map(|system| Identified { records: stretches(&records, &system), system, is_carried }))
+        };
         Ok(match self {
-            Self::Predictions => surrogate(workers, &predicted.iter().collect::<Vec<_>>(), noise)?
-                .map(|system| Identified { system, records: stretches(predicted), is_carried: true }),
+            Self::Predictions => found(predicted, noise, true)?,
             Self::Model(system) => {
                 Some(Identified { system: System::clone(system), records: Vec::new(), is_carried: false })
             }
             Self::Records(records) => {
                 let own: Vec<&Record> = records.iter().collect();
-                let records = stretches(records);
                 let Some(first) = nominal(&own, (None, None))? else { return Ok(None) };
-                let errors = records
+                let errors = stretches(&own, &first)
                     .iter()
                     .map(|s| s.simulate(&first).iter().zip(&s.y).map(|(run, y)| y - run).collect())
                     .collect::<Vec<Vec<f64>>>();
-                let noise = Criterion::of(&errors).sd;
-                surrogate(workers, &own, noise)?.map(|system| Identified {
-                    system,
-                    records,
-                    is_carried: false,
-                })
+                found(records, Criterion::of(&errors).sd, false)?
             }
         })
     }

@@ -53,8 +53,10 @@ pub(super) fn surrogate(
 ) -> Result<Option<System>, FreeError> {
     let noisy: Vec<Record> = records.iter().enumerate().map(|(k, r)| with_noise(r, noise, k)).collect();
     let Some(mut system) = nominal(&noisy.iter().collect::<Vec<_>>(), (None, None))? else { return Ok(None) };
+    // An effect may have passed for a delay.
+    system.linear = system.linear.widened();
     let pairs: Vec<(&[f64], &[f64])> = records.iter().map(|r| (r.v(), r.y())).collect();
-    let stretches = Stretch::all(&pairs);
+    let stretches = stretches(records, &system);
     let samples = stretches.iter().map(|s| s.v.len()).sum();
     let criterion = Criterion { filter: Vec::new(), sd: noise };
     let search = Search {
@@ -67,8 +69,6 @@ pub(super) fn surrogate(
     // Effects may pass for dynamics, as a mass does for a pair of poles: the search begins once without any.
     let (immediate, _) = LinearPart::new(&[], &[1.0], 0).expect("a gain of one");
     let without_dynamics = System { linear: immediate, ..system.clone() };
-    // And an effect may have passed for a delay.
-    system.linear = system.linear.widened();
     // A law that moves reversals passes for much else: where it gains, the structure is identified behind it.
     let (_, plain) = search.fit(&system, STEP);
     let behind = search.behind(&noisy.iter().collect::<Vec<_>>(), plain);
@@ -83,6 +83,12 @@ pub(super) fn surrogate(
     let grown = workers.map(&starts, |start| search.grown(start));
     let best = grown.into_iter().min_by(|x, y| search.worth(x).total_cmp(&search.worth(y)));
     Ok(best.map(|(best, _)| search.finished(&best)))
+}
+
+/// Records of a source by which systems as long as this one are compared.
+pub(super) fn stretches(records: &[&Record], system: &System) -> Vec<Stretch> {
+    let all = Stretch::all(&records.iter().map(|r| (r.v(), r.y())).collect::<Vec<_>>());
+    all.into_iter().map(|s| s.behind_earlier_inputs(&system.linear, 0)).collect()
 }
 
 /// The record with white noise on its output, of a seed of its own.
@@ -109,7 +115,7 @@ impl<W: Workers> Search<'_, W> {
         let (mut system, mut deviance) = self.fit(system, Effort::FINAL);
         let context = (&self.criterion, &self.scale);
         for _ in 0..MOST_HALVINGS {
-            let start = refined(&system, 0.5);
+            let start = self.refined(&system, 0.5);
             let (finer, _) = fit(&start, &Quantity::coordinates(&start), self.stretches, context, STEP);
             // Knots are many, and hardly move with the effects.
             let terms: Vec<Quantity> =
@@ -121,6 +127,24 @@ impl<W: Workers> Search<'_, W> {
             (system, deviance) = (finer, least);
         }
         system
+    }
+
+    /// The same on borders with knots at a share of their mean distance, where one sample at least determines each.
+    fn refined(&self, system: &System, share: f64) -> System {
+        let (low, high) = system.borders.range();
+        let apart = (high - low) / (system.borders.count() as f64 / 2.0 - 1.0).max(1.0);
+        let mut refined = System { borders: system.borders.refined(share * apart), ..system.clone() };
+        loop {
+            let mut weights = vec![0.0; refined.borders.count()];
+            for stretch in self.stretches {
+                let own = refined.knot_weights(&stretch.v, stretch.span);
+                weights.iter_mut().zip(own).for_each(|(sum, weight)| *sum += weight);
+            }
+            match refined.borders.without_light_knots(&weights, 1.0) {
+                Some(borders) => refined.borders = borders,
+                None => return refined,
+            }
+        }
     }
 
     /// Deviance and price of all its numbers.
@@ -209,7 +233,7 @@ impl<W: Workers> Search<'_, W> {
         let effects = self.candidates(system).into_iter().map(with);
         let linear = system.linear.larger().into_iter().map(|linear| System { linear, ..system.clone() });
         let larger: Vec<System> =
-            effects.chain(linear).chain([0.5, 0.25].map(|share| refined(system, share))).collect();
+            effects.chain(linear).chain([0.5, 0.25].map(|share| self.refined(system, share))).collect();
         let retimed: Vec<System> = larger.iter().chain([system]).map(retimed).collect();
         [larger, retimed].concat()
     }
@@ -239,13 +263,6 @@ impl<W: Workers> Search<'_, W> {
 fn charged(system: &System) -> usize {
     let coordinates = Quantity::coordinates(system);
     coordinates.iter().filter(|q| !matches!(q, Quantity::Knot(_))).count()
-}
-
-/// The same on borders with knots at a share of their mean distance.
-fn refined(system: &System, share: f64) -> System {
-    let (low, high) = system.borders.range();
-    let apart = (high - low) / (system.borders.count() as f64 / 2.0 - 1.0).max(1.0);
-    System { borders: system.borders.refined(share * apart), ..system.clone() }
 }
 
 /// The same with reversals that take effect at samples instead of between them, or conversely: an effect before the operator changes which of both is right.

@@ -145,23 +145,26 @@ pub(super) fn errors(stretch: &Stretch, run: &[f64]) -> Vec<f64> {
     stretch.y.iter().zip(run).map(|(y, r)| if r.is_finite() { y - r } else { 1e150 }).collect()
 }
 
-/// Filters signals of a record, and removes from each the traces that initial states of the linear part, and the border before the first move, could leave.
+/// Filters signals of a record, and removes from each the traces that initial states of the linear part, and the border before the first move, could leave. What
+/// the record skips is zero.
 pub fn filter_and_project(
     system: &System,
     stretch: &Stretch,
     signals: &mut [Vec<f64>],
     criterion: &Criterion,
 ) {
-    for signal in signals.iter_mut() {
-        *signal = criterion.filtered(std::mem::take(signal));
-    }
-    let mut traces = initial_state_responses(system.linear.a(), stretch.v.len());
-    traces.extend(system.response_to_the_first_border(&stretch.v));
-    for direction in orthonormal(traces, criterion) {
-        for signal in signals.iter_mut() {
-            let share: f64 = direction.iter().zip(signal.iter()).map(|(d, x)| d * x).sum();
-            signal.iter_mut().zip(&direction).for_each(|(x, d)| *x -= share * d);
+    let skipped = stretch.skipped;
+    let mut traces = initial_state_responses(system.linear.a(), stretch.v.len() - skipped);
+    traces.extend(system.response_to_the_first_border(&stretch.v).map(|trace| trace[skipped..].to_vec()));
+    let basis = orthonormal(traces, criterion);
+    for signal in signals {
+        let mut rest = criterion.filtered(signal.split_off(skipped));
+        for direction in &basis {
+            let share: f64 = direction.iter().zip(&rest).map(|(d, x)| d * x).sum();
+            rest.iter_mut().zip(direction).for_each(|(x, d)| *x -= share * d);
         }
+        signal.fill(0.0);
+        signal.append(&mut rest);
     }
 }
 

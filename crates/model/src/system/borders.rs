@@ -132,6 +132,43 @@ impl Borders {
         }
     }
 
+    /// For each knot, numbered through, the sum of squares of its share in the working points at these places; `z` is −1 on the descending border, 1 on the
+    /// ascending one.
+    pub(super) fn weights(&self, places: &Places, z: &[f64]) -> Vec<f64> {
+        let mut weights = vec![0.0; self.count()];
+        let first = self.curves[0].knots.len();
+        for (places, z) in places.each.iter().zip(z) {
+            for ((left, share), of_border, first) in
+                [(places[0], 0.5 * (1.0 - z), 0), (places[1], 0.5 * (1.0 + z), first)]
+            {
+                let left = first + left as usize;
+                weights[left] += (of_border * (1.0 - share)).powi(2);
+                weights[left + 1] += (of_border * share).powi(2);
+            }
+        }
+        weights
+    }
+
+    /// The same without inner knots of less than this weight, and with wider cells at ends of less. None where nothing changes.
+    #[must_use]
+    pub fn without_light_knots(&self, weights: &[f64], least: f64) -> Option<Self> {
+        let first = self.curves[0].knots.len();
+        let heavy = |table: &Table, weights: &[f64]| {
+            let last = weights.len() - 1;
+            let is_kept = |k: usize| match k {
+                _ if k == 0 || k == last => true,
+                1 if weights[0] < least => false,
+                _ if k == last - 1 && weights[last] < least => false,
+                _ => weights[k] >= least,
+            };
+            let kept: Vec<usize> = (0..=last).filter(|k| is_kept(*k)).collect();
+            let of = |values: &[f64]| kept.iter().map(|k| values[*k]).collect();
+            Table { knots: of(&table.knots), values: of(&table.values) }
+        };
+        let curves = [heavy(&self.curves[0], &weights[..first]), heavy(&self.curves[1], &weights[first..])];
+        (curves != self.curves).then_some(Self { curves })
+    }
+
     /// The same curves with knots no farther apart than this.
     #[must_use]
     pub fn refined(&self, widest: f64) -> Self {
@@ -183,6 +220,21 @@ impl Borders {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn knots_that_no_position_is_near_are_light() {
+        let knots = [-1.0, 0.0, 1.0, 2.0, 3.0];
+        let table = knots.map(|v| (v, v * v));
+        let borders = Borders::new(&table, &table).expect("tables");
+        // Descending on positions from -1 to 1, ascending only on the first knot and halfway to the second.
+        let (positions, z) = ([1.0, 0.5, 0.0, -1.0, -1.0, -0.5], [-1.0, -1.0, -1.0, -1.0, 1.0, 1.0]);
+        let weights = borders.weights(&borders.places(&positions), &z);
+        assert_eq!(weights, [1.0, 1.25, 1.25, 0.0, 0.0, 1.25, 0.25, 0.0, 0.0, 0.0]);
+        let fewer = borders.without_light_knots(&weights, 1.0).expect("light knots");
+        let knots = |branch| fewer.points(branch).map(|(v, _)| v).collect::<Vec<_>>();
+        assert_eq!(knots(Branch::Descending), [-1.0, 0.0, 1.0, 3.0]);
+        assert_eq!(knots(Branch::Ascending), [-1.0, 3.0]);
+    }
 
     #[test]
     fn a_place_is_the_same_wherever_it_is_looked_for_first() {

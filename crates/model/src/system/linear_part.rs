@@ -68,6 +68,11 @@ impl LinearPart {
         }
     }
 
+    /// The largest lag of its numerator, samples; zero where its inputs are present or future ones.
+    pub fn largest_lag(&self) -> usize {
+        (self.lag + self.b.len() as isize).max(0).unsigned_abs()
+    }
+
     /// Whether its output stays bounded.
     pub fn is_stable(&self) -> bool {
         is_stable(&self.a)

@@ -74,6 +74,12 @@ impl System {
         Path::of(v, (&self.borders, self.rule), (&self.terms, span), Some(known))
     }
 
+    /// For each knot of the borders the sum of squares of its share in the working points of a record: how many samples determine its value.
+    pub fn knot_weights(&self, v: &[f64], span: Span) -> Vec<f64> {
+        let path = self.path(v, span);
+        self.borders.weights(&path.places, &path.operator.z)
+    }
+
     /// The output along a path, which must be that of a system with the same terms and rule. What `beside` has, one value a sample or none, is
     /// added before the sensor.
     pub fn respond(&self, path: &Path, beside: &[f64]) -> Vec<f64> {
