@@ -18,6 +18,9 @@ use switchback_diagnose::Settings;
 use switchback_io::diagnosis::{self, Report, Subject};
 use switchback_model::rig::Rig;
 
+/// Rigs after which results are printed.
+const AT_ONCE: usize = 20;
+
 /// A simulator beside a machine, and the rows that must come first, each with its values in both.
 struct Made {
     kind: String,
@@ -69,7 +72,8 @@ fn main() -> miette::Result<()> {
         Ok((compared(&made, &report, seed), made.kind, report))
     };
     let mut table: Vec<(String, Counted)> = Vec::new();
-    for done in seeds.par_iter().map(one).collect::<Vec<_>>() {
+    let done = seeds.chunks(AT_ONCE).flat_map(|some| some.par_iter().map(one).collect::<Vec<_>>());
+    for done in done {
         let ((counted, wrong), kind, report) = done?;
         if in_full {
             println!("{}", switchback_report::diagnosis::words(&report, None));
