@@ -2,6 +2,7 @@
 
 use super::Made;
 use super::joint::Joint;
+use switchback_diagnose::{Effect, Status, Verdict};
 use switchback_io::diagnosis::{Report, ReportedDifference, Units};
 
 /// What is counted of a kind.
@@ -16,6 +17,8 @@ pub(crate) struct Counted {
     /// Rows of what is the same, and those of them that are shown as the same.
     same: usize,
     shown_same: usize,
+    /// Verdicts that name what is missing in the simulator, else that values are off, else that nothing is.
+    answered: usize,
 }
 
 impl Counted {
@@ -26,12 +29,13 @@ impl Counted {
         self.valued += other.valued;
         self.same += other.same;
         self.shown_same += other.shown_same;
+        self.answered += other.answered;
     }
 
     pub(crate) fn line(&self, name: &str) -> String {
         format!(
-            "{name:<16} {:>5} {:>6} {:>8}/{:<4} {:>8}/{:<5}",
-            self.pairs, self.right, self.covered, self.valued, self.shown_same, self.same
+            "{name:<16} {:>5} {:>6} {:>8} {:>8}/{:<4} {:>8}/{:<5}",
+            self.pairs, self.right, self.answered, self.covered, self.valued, self.shown_same, self.same
         )
     }
 }
@@ -66,15 +70,44 @@ pub(crate) fn compared(made: &Made, report: &Report, seed: u64) -> (Counted, Opt
         errors.push(deviation / row.se);
         counted.covered += usize::from(deviation.abs() <= 1.96 * row.se);
     }
-    let is_wrong = !right || counted.covered < counted.valued || counted.shown_same < counted.same;
+    counted.answered = usize::from(is_answered(made, &report.diagnosis.verdict));
+    let is_wrong = !right
+        || counted.answered == 0
+        || counted.covered < counted.valued
+        || counted.shown_same < counted.same;
     let wrong = is_wrong.then(|| {
         let shown: Vec<String> = shown
             .iter()
             .map(|r| format!("{} {:.4e} → {:.4e} ± {:.1e}", r.what, r.in_a, r.in_b, r.se))
             .collect();
-        format!("{seed} {} {:?} off by {errors:.2?}: {}", made.kind, made.expected, shown.join(", "))
+        format!(
+            "{seed} {} {:?} {:?} off by {errors:.2?}: {}",
+            made.kind,
+            made.expected,
+            report.diagnosis.verdict.status,
+            shown.join(", ")
+        )
     });
     (counted, wrong)
+}
+
+/// Whether a verdict answers the question of whose gap it is. A mass is no effect that a verdict names, but a value.
+fn is_answered(made: &Made, verdict: &Verdict) -> bool {
+    let lacks = |what: &str| match what {
+        "play" => Some(Effect::Backlash),
+        "damping" => Some(Effect::RateDependence),
+        _ => None,
+    };
+    let missing: Vec<Effect> = (made.expected.iter())
+        .filter(|(_, [simulator, _])| *simulator == 0.0)
+        .filter_map(|(what, _)| lacks(what))
+        .collect();
+    match verdict.status {
+        Status::Named => !missing.is_empty() && verdict.effects == missing,
+        Status::Parameters => !made.expected.is_empty() && missing.is_empty(),
+        Status::None => made.expected.is_empty(),
+        _ => false,
+    }
 }
 
 /// The name of a row without the number of its pole.

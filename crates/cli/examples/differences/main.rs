@@ -86,7 +86,10 @@ fn main() -> miette::Result<()> {
             None => table.push((kind, counted)),
         }
     }
-    println!("{:<16} {:>5} {:>6} {:>13} {:>14}", "differs", "pairs", "right", "in interval", "same");
+    println!(
+        "{:<16} {:>5} {:>6} {:>8} {:>13} {:>14}",
+        "differs", "pairs", "right", "verdict", "in interval", "same"
+    );
     let mut all = Counted::default();
     for (kind, counted) in table {
         println!("{}", counted.line(&kind));
