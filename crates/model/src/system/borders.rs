@@ -191,6 +191,25 @@ impl Borders {
         self.refined((high - low) / 64.0)
     }
 
+    /// The same curves, where they end short of a range continued to its ends: by their mean slopes over the eighth of themselves next to each end.
+    #[must_use]
+    pub fn continued(&self, (low, high): (f64, f64)) -> Self {
+        let continued = |table: &Table| {
+            let (first, last) = (table.knots[0], table.knots[table.knots.len() - 1]);
+            let along = (last - first) / 8.0;
+            let to = |v: f64, end: f64, inside: f64| {
+                let slope = (table.at(inside) - table.at(end)) / (inside - end);
+                (v, table.at(end) + slope * (v - end))
+            };
+            let before = (low < first).then(|| to(low, first, first + along));
+            let behind = (high > last).then(|| to(high, last, last - along));
+            let own = table.knots.iter().copied().zip(table.values.iter().copied());
+            let (knots, values) = before.into_iter().chain(own).chain(behind).unzip();
+            Table { knots, values }
+        };
+        Self { curves: [continued(&self.curves[0]), continued(&self.curves[1])] }
+    }
+
     /// The same on the knots of both, with mean and half width changed as functions of the position.
     #[must_use]
     pub fn map(&self, change: impl Fn(f64, f64, f64) -> (f64, f64)) -> Self {
@@ -234,6 +253,17 @@ mod tests {
         let knots = |branch| fewer.points(branch).map(|(v, _)| v).collect::<Vec<_>>();
         assert_eq!(knots(Branch::Descending), [-1.0, 0.0, 1.0, 3.0]);
         assert_eq!(knots(Branch::Ascending), [-1.0, 3.0]);
+    }
+
+    #[test]
+    fn curves_are_continued_by_their_slopes() {
+        let borders = Borders::new(&[(-4.0, -8.0), (4.0, 8.0)], &[(-4.0, 3.0), (-3.0, 4.0), (4.0, 4.0)])
+            .expect("tables");
+        let wider = borders.continued((-6.0, 3.0));
+        let points = |branch| wider.points(branch).collect::<Vec<_>>();
+        assert_eq!(points(Branch::Descending), [(-6.0, -12.0), (-4.0, -8.0), (4.0, 8.0)]);
+        assert_eq!(points(Branch::Ascending), [(-6.0, 1.0), (-4.0, 3.0), (-3.0, 4.0), (4.0, 4.0)]);
+        assert_eq!(borders.continued((-1.0, 1.0)), borders);
     }
 
     #[test]
