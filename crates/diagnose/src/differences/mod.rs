@@ -9,6 +9,7 @@
 //! where differences are fitted it lacks the traces of the source's initial state, which is not the machine's. Each quantity of the
 //! system, and each effect that it lacks, is a candidate for a difference; stepwise selection finds those that the machine's records call for (`selection`).
 
+mod errors;
 mod missing;
 mod pair;
 mod reversals;

@@ -1,12 +1,13 @@
 //! The comparison itself.
 
+use super::errors::{carrying_without_initial_state, errors, run_from_the_state_of};
 use super::rows::{Row, rows};
 use super::selection::{Context, Difference, with};
 use super::source::Source;
 use crate::evidence::nominal;
 use crate::workers::{Serial, Workers};
 use switchback_identify::free::FreeError;
-use switchback_identify::record::{Criterion, Stretch, filter_and_project};
+use switchback_identify::record::{Criterion, Stretch};
 use switchback_model::Record;
 use switchback_model::alignment::{Alignment, align, regression};
 use switchback_model::stray::screened;
@@ -91,8 +92,7 @@ pub fn compare_with(
     let used: Vec<usize> = (0..machine.len()).filter(|&k| is_used(&machine[k])).collect();
     let fitted: Vec<&Record> = used.iter().map(|&k| &screened[k]).collect();
     let Some(own) = nominal(&fitted, (None, None))? else { return Ok(None) };
-    let plain: Vec<Stretch> =
-        used.iter().map(|&k| all[k].clone().behind_earlier_inputs(&own.linear, 0)).collect();
+    let plain: Vec<Stretch> = used.iter().map(|&k| all[k].clone().behind_earlier_inputs(&own, 0)).collect();
     let criterion = Criterion { filter: Vec::new(), sd: Criterion::of(&errors(&own, &plain)).sd };
     let predicted: Vec<Record> = used
         .iter()
@@ -103,25 +103,28 @@ pub fn compare_with(
     let aligned = align(&outputs);
     let noise = criterion.sd / aligned.map_or(1.0, |a| a.factor.abs().max(f64::MIN_POSITIVE));
     let Some(found) = source.identified(workers, &predicted, noise)? else { return Ok(None) };
-    let base = found.base(own.rule);
+    let inputs = all.iter().flat_map(|s| s.v.iter());
+    let range = inputs.fold((f64::MAX, f64::MIN), |(low, high), v| (low.min(*v), high.max(*v)));
+    let base = found.base(own.rule, range);
     // A machine that is later than the source depends on earlier inputs for as long.
     let later = aligned.map_or(0, |a| a.delay.max(0).unsigned_abs());
-    let fitted_stretch = |&k: &usize| {
-        let stretch = all[k].clone().behind_earlier_inputs(&base.linear, later);
-        match machine[k].predicted {
-            Some(predicted) if found.is_carried => stretch.carrying_without_initial_state(&base, predicted),
-            _ => stretch,
-        }
+    let predicted_of = |k: usize| machine[k].predicted.filter(|_| found.is_carried);
+    let stretch_for = |k: usize, system: &System| {
+        let own = all[k].clone().behind_earlier_inputs(&base, later);
+        let carrying = predicted_of(k).map(|p| carrying_without_initial_state(&own, &base, p));
+        carrying.unwrap_or(own).behind_earlier_inputs(system, later)
     };
-    let stretches: Vec<Stretch> = used.iter().map(fitted_stretch).collect();
+    let stretches_for = |system: &System| used.iter().map(|&k| stretch_for(k, system)).collect();
     let scale =
         Scale::of(&base.linear, base.rule, &plain.iter().map(|s| (&s.v[..], &s.y[..])).collect::<Vec<_>>());
     let samples = plain.iter().map(|s| s.v.len()).sum();
     let mut context =
-        Context { workers, base: &base, stretches: &stretches, criterion, scale: &scale, samples };
+        Context { workers, base: &base, stretches: stretches_for(&base), criterion, scale: &scale, samples };
     let mut selected = context.select(start(regression(&outputs, 0), aligned));
     for _ in 1..ROUNDS {
-        context.criterion = Criterion::of(&errors(&with(&base, &selected.differences).0, &stretches));
+        let (aligned, _) = with(&base, &selected.differences);
+        context.stretches = stretches_for(&aligned);
+        context.criterion = Criterion::of(&errors(&aligned, &context.stretches));
         let before = selected;
         selected = context.reselect(&before.differences);
         if selected.is_of_the_kinds_of(&before) {
@@ -130,17 +133,12 @@ pub fn compare_with(
     }
     let rows = rows(&context, &selected, &found);
     let (aligned, _) = with(&base, &selected.differences);
-    let noise = Criterion::of(&errors(&aligned, &stretches)).sd;
-    let runs: Vec<[Vec<f64>; 2]> = machine
-        .iter()
-        .zip(&all)
-        .map(|(m, stretch)| {
-            let stretch = match m.predicted {
-                Some(predicted) if found.is_carried => stretch.carrying(&base, predicted),
-                _ => stretch.clone(),
-            };
-            [stretch.simulate(&base), stretch.simulate(&aligned)]
-        })
+    let noise = Criterion::of(&errors(&aligned, &context.stretches)).sd;
+    let run_of_the_source = |k: usize| {
+        predicted_of(k).map_or_else(|| all[k].clone(), |p| all[k].carrying(&base, p)).simulate(&base)
+    };
+    let runs: Vec<[Vec<f64>; 2]> = (0..machine.len())
+        .map(|k| [run_of_the_source(k), run_from_the_state_of(&stretch_for(k, &aligned), &aligned)])
         .collect();
     let shifts = (0..machine.len())
         .filter(|k| !machine[*k].is_fitted)
@@ -155,17 +153,6 @@ pub fn compare_with(
         shifts,
         basis: Basis::Differences,
     }))
-}
-
-/// Errors of the free runs, without the traces of initial states.
-fn errors(system: &System, stretches: &[Stretch]) -> Vec<Vec<f64>> {
-    let unfiltered = Criterion { filter: Vec::new(), sd: 1.0 };
-    let of = |s: &Stretch| {
-        let mut error = [s.simulate(system).iter().zip(&s.y).map(|(run, y)| y - run).collect::<Vec<f64>>()];
-        filter_and_project(system, s, &mut error, &unfiltered);
-        error[0].split_off(s.skipped)
-    };
-    stretches.iter().map(of).collect()
 }
 
 /// The differences from which a selection starts: a factor far from one, where the regression on the prediction finds it.

@@ -113,9 +113,9 @@ pub(super) fn rows<W: Workers>(
     let (aligned, free) = with(context.base, &selected.differences);
     let open: Vec<Quantity> = quantities(context.base).filter(|q| !free.contains(q)).collect();
     let all = [&free[..], &open].concat();
-    let local = Sensitivities::of(&aligned, &all, context.stretches, (&context.criterion, context.scale));
+    let local = Sensitivities::of(&aligned, &all, &context.stretches, (&context.criterion, context.scale));
     let errors = errors(&local, free.len());
-    let before = Sensitivities::deviance(context.base, context.stretches, &context.criterion);
+    let before = Sensitivities::deviance(context.base, &context.stretches, &context.criterion);
     let gap = before - selected.deviance;
     let losses = context.losses(selected);
     let own: Vec<Quantity> = quantities(context.base).collect();
@@ -129,7 +129,7 @@ pub(super) fn rows<W: Workers>(
     for (k, quantity) in all.iter().enumerate() {
         let (in_a, se_a) = in_source(*quantity);
         let (in_b, se) = if moves_reversals(&aligned, *quantity) {
-            profiled(&aligned, *quantity, &free, context.stretches, (&context.criterion, context.scale))
+            profiled(&aligned, *quantity, &free, &context.stretches, (&context.criterion, context.scale))
         } else {
             (quantity.value(&aligned) + errors[k].0, errors[k].1)
         };

@@ -97,7 +97,7 @@ const FACTORS: [f64; 4] = [0.0, 0.5, 1.5, 2.5];
 pub(super) struct Context<'a, W> {
     pub(super) workers: &'a W,
     pub(super) base: &'a System,
-    pub(super) stretches: &'a [Stretch],
+    pub(super) stretches: Vec<Stretch>,
     /// The criterion of the errors that remain.
     pub(super) criterion: Criterion,
     pub(super) scale: &'a Scale,
@@ -109,7 +109,7 @@ impl<W: Workers> Context<'_, W> {
         let (start, free) = with(self.base, differences);
         let context = (&self.criterion, self.scale);
         let of = if effort == Effort::FINAL { fit_across_reversals } else { fit };
-        let (system, deviance) = of(&start, &free, self.stretches, context, effort);
+        let (system, deviance) = of(&start, &free, &self.stretches, context, effort);
         Selected { differences: read(&system, self.base, differences), deviance }
     }
 
@@ -155,12 +155,12 @@ impl<W: Workers> Context<'_, W> {
         let mut tries: Vec<(f64, Difference)> = Vec::new();
         let open: Vec<Quantity> = quantities(self.base).filter(|q| !taken.contains(q)).collect();
         let all = [&taken[..], &open].concat();
-        let local = Sensitivities::of(&system, &all, self.stretches, context);
+        let local = Sensitivities::of(&system, &all, &self.stretches, context);
         for (gain, quantity) in gains(&local, taken.len()).into_iter().zip(&open) {
             tries.push((gain, Difference::Quantity(*quantity, quantity.value(&system))));
         }
         let terms = if with_effects { starts(self.scale, &system.terms) } else { Vec::new() };
-        let scores = scores(&system, &taken, &terms, self.stretches, context);
+        let scores = scores(&system, &taken, &terms, &self.stretches, context);
         tries.extend(scores.into_iter().zip(terms.into_iter().map(Difference::Effect)));
         tries.sort_by(|x, y| y.0.total_cmp(&x.0));
         let mut tries: Vec<Difference> = tries.into_iter().take(FITTED).map(|t| t.1).collect();
@@ -176,7 +176,7 @@ impl<W: Workers> Context<'_, W> {
             self.fit(&[&now.differences[..], std::slice::from_ref(difference)].concat(), Effort::SEARCH)
         });
         let best = fits.into_iter().min_by(|x, y| self.worth(x).total_cmp(&self.worth(y)))?;
-        let explained = Sensitivities::deviance(self.base, self.stretches, &self.criterion) - now.deviance;
+        let explained = Sensitivities::deviance(self.base, &self.stretches, &self.criterion) - now.deviance;
         let gained = now.deviance - best.deviance;
         (self.worth(&best) < self.worth(now) && gained > LEAST_SHARE * explained).then_some(best)
     }

@@ -1,5 +1,6 @@
 //! A source that a machine is compared with.
 
+use super::errors::errors;
 use super::surrogate::{stretches, surrogate};
 use crate::evidence::nominal;
 use crate::workers::Workers;
@@ -29,12 +30,12 @@ pub(super) struct Identified {
 }
 
 impl Identified {
-    /// The system on borders dense enough for a change of their curvature. Where a law moves reversals, the rule that places these without it is not seen in the
+    /// The system on borders dense enough for a change of their curvature, continued over the range of the machine's input. Where a law moves reversals, the rule that places these without it is not seen in the
     /// source, and is the machine's.
-    pub(super) fn base(&self, machine: ReversalRule) -> System {
+    pub(super) fn base(&self, machine: ReversalRule, range: (f64, f64)) -> System {
         let is_open = self.system.terms.iter().any(|term| term.law.moves_reversals());
         let rule = if is_open { machine } else { self.system.rule };
-        System { borders: self.system.borders.dense(), rule, ..self.system.clone() }
+        System { borders: self.system.borders.dense().continued(range), rule, ..self.system.clone() }
     }
 }
 
@@ -60,10 +61,7 @@ impl Source {
             Self::Records(records) => {
                 let own: Vec<&Record> = records.iter().collect();
                 let Some(first) = nominal(&own, (None, None))? else { return Ok(None) };
-                let errors = stretches(&own, &first)
-                    .iter()
-                    .map(|s| s.simulate(&first).iter().zip(&s.y).map(|(run, y)| y - run).collect())
-                    .collect::<Vec<Vec<f64>>>();
+                let errors = errors(&first, &stretches(&own, &first));
                 found(records, Criterion::of(&errors).sd, false)?
             }
         })

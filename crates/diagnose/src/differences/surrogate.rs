@@ -1,5 +1,6 @@
 //! A system in place of a source of which only predictions are known.
 
+use super::errors::errors;
 use super::reversals::{fit_across_reversals, moves_reversals, profiled};
 use crate::evidence::{behind, nominal};
 use crate::price::price;
@@ -70,25 +71,22 @@ pub(super) fn surrogate(
     let (immediate, _) = LinearPart::new(&[], &[1.0], 0).expect("a gain of one");
     let without_dynamics = System { linear: immediate, ..system.clone() };
     // A law that moves reversals passes for much else: where it gains, the structure is identified behind it.
-    let (_, plain) = search.fit(&system, STEP);
+    let (_, plain) = search.fit(&search.refined(&system, 0.5), STEP);
     let behind = search.behind(&noisy.iter().collect::<Vec<_>>(), plain);
-    // And poles that the noise asks for may have passed for a simpler system's: it begins once with each smaller order.
-    let orders: Vec<usize> = (1..system.linear.a().len().min(MIDDLING + 1)).collect();
-    let simpler = workers.map(&orders, |order| {
-        let simpler = nominal(&noisy.iter().collect::<Vec<_>>(), (Some(*order), None)).ok()??;
-        Some(System { linear: simpler.linear.widened(), ..simpler })
-    });
-    let starts: Vec<System> =
-        [system, without_dynamics].into_iter().chain(behind).chain(simpler.into_iter().flatten()).collect();
-    let grown = workers.map(&starts, |start| search.grown(start));
-    let best = grown.into_iter().min_by(|x, y| search.worth(x).total_cmp(&search.worth(y)));
+    // Where one is as good as the source, the next is not let grow larger.
+    let mut best: Option<(System, f64)> = None;
+    for start in behind.into_iter().chain([system, without_dynamics]) {
+        let most = best.as_ref().filter(|best| best.1 < search.small()).map(|best| charged(&best.0));
+        let grown = search.grown(&start, most);
+        best = best.into_iter().chain([grown]).min_by(|x, y| search.worth(x).total_cmp(&search.worth(y)));
+    }
     Ok(best.map(|(best, _)| search.finished(&best)))
 }
 
 /// Records of a source by which systems as long as this one are compared.
 pub(super) fn stretches(records: &[&Record], system: &System) -> Vec<Stretch> {
     let all = Stretch::all(&records.iter().map(|r| (r.v(), r.y())).collect::<Vec<_>>());
-    all.into_iter().map(|s| s.behind_earlier_inputs(&system.linear, 0)).collect()
+    all.into_iter().map(|s| s.behind_earlier_inputs(system, 0)).collect()
 }
 
 /// The record with white noise on its output, of a seed of its own.
@@ -179,13 +177,14 @@ impl<W: Workers> Search<'_, W> {
         Some(best)
     }
 
-    /// The system with effects, poles and knots added while these explain enough, and without those that are needless then.
-    fn grown(&self, start: &System) -> (System, f64) {
+    /// The system with effects, poles and knots added while these explain enough, and without those that are needless then; not beyond the number of parameters
+    /// with which another system is as good as the source.
+    fn grown(&self, start: &System, most: Option<usize>) -> (System, f64) {
         let [one, other] = [retimed(start), start.clone()].map(|start| self.fit(&start, Effort::FINAL));
         let (mut system, mut deviance) = if one.1 < other.1 { one } else { other };
         let small = self.small();
         for _ in 0..MOST_EFFECTS {
-            if deviance < small {
+            if deviance < small || most.is_some_and(|most| charged(&system) >= most) {
                 break;
             }
             let (now, terms) = (charged(&system), system.terms.len());
@@ -310,10 +309,7 @@ pub(super) fn own_values(
         // The system is the source itself.
         return quantities.iter().map(|q| (q.value(system), 0.0)).collect();
     }
-    let errors: Vec<Vec<f64>> = records
-        .iter()
-        .map(|s| s.simulate(system).iter().zip(&s.y).map(|(run, y)| y - run).collect())
-        .collect();
+    let errors = errors(system, records);
     let criterion = Criterion::of(&errors);
     let coordinates = Quantity::coordinates(system);
     let local = Sensitivities::of(system, &coordinates, records, (&criterion, scale));

@@ -33,12 +33,7 @@ impl Sensitivities {
     ) -> Self {
         let count = quantities.len();
         let differences = Differences::of(system, quantities, scale);
-        let mut sums = Self {
-            information: DMatrix::zeros(count, count),
-            gradient: DVector::zeros(count),
-            deviance: 0.0,
-            blocks: Vec::new(),
-        };
+        let mut sums = Self::zero(count);
         for stretch in stretches {
             let path = system.path(&stretch.v, stretch.span);
             let run = stretch.respond(system, &path);
@@ -46,6 +41,11 @@ impl Sensitivities {
             sums.add(system, stretch, (&run, columns), criterion);
         }
         sums
+    }
+
+    fn zero(count: usize) -> Self {
+        let (information, gradient) = (DMatrix::zeros(count, count), DVector::zeros(count));
+        Self { information, gradient, deviance: 0.0, blocks: Vec::new() }
     }
 
     /// With given derivatives, one list a record and in it one column a quantity.
@@ -56,12 +56,7 @@ impl Sensitivities {
         criterion: &Criterion,
     ) -> Self {
         let count = columns.first().map_or(0, Vec::len);
-        let mut sums = Self {
-            information: DMatrix::zeros(count, count),
-            gradient: DVector::zeros(count),
-            deviance: 0.0,
-            blocks: Vec::new(),
-        };
+        let mut sums = Self::zero(count);
         for (stretch, columns) in stretches.iter().zip(columns) {
             let run = stretch.simulate(system);
             sums.add(system, stretch, (&run, columns), criterion);
@@ -145,20 +140,20 @@ pub(super) fn errors(stretch: &Stretch, run: &[f64]) -> Vec<f64> {
     stretch.y.iter().zip(run).map(|(y, r)| if r.is_finite() { y - r } else { 1e150 }).collect()
 }
 
-/// Filters signals of a record, and removes from each the traces that initial states of the linear part, and the border before the first move, could leave. What
-/// the record skips is zero.
+/// Filters signals of a record, zero where it skips samples, and removes the traces that initial states, and the border before the first move, could leave.
 pub fn filter_and_project(
     system: &System,
     stretch: &Stretch,
     signals: &mut [Vec<f64>],
     criterion: &Criterion,
 ) {
-    let skipped = stretch.skipped;
-    let mut traces = initial_state_responses(system.linear.a(), stretch.v.len() - skipped);
-    traces.extend(system.response_to_the_first_border(&stretch.v).map(|trace| trace[skipped..].to_vec()));
+    let mut traces = initial_state_responses(system.linear.a(), stretch.v.len() - stretch.skipped);
+    traces.extend(
+        system.response_to_the_first_border(&stretch.v).map(|mut all| all.split_off(stretch.skipped)),
+    );
     let basis = orthonormal(traces, criterion);
     for signal in signals {
-        let mut rest = criterion.filtered(signal.split_off(skipped));
+        let mut rest = criterion.filtered(signal.split_off(stretch.skipped));
         for direction in &basis {
             let share: f64 = direction.iter().zip(&rest).map(|(d, x)| d * x).sum();
             rest.iter_mut().zip(direction).for_each(|(x, d)| *x -= share * d);
@@ -191,4 +186,35 @@ fn orthonormal(signals: Vec<Vec<f64>>, criterion: &Criterion) -> Vec<Vec<f64>> {
 
 fn norm(x: &[f64]) -> f64 {
     x.iter().map(|x| x * x).sum::<f64>().sqrt()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use switchback_model::reversal::ReversalRule;
+    use switchback_model::system::{Borders, LinearPart, Sensor, Span};
+
+    /// The end of a record is compared as well as the whole of it: what inputs before it did is seen in its first samples alone.
+    #[test]
+    fn inputs_before_a_record_cost_nothing() {
+        let system = System {
+            borders: Borders::new(&[(-1.0, -2.4), (1.0, 1.6)], &[(-1.0, -1.6), (1.0, 2.4)]).expect("tables"),
+            linear: LinearPart::new(&[-1.2, 0.5], &[0.2, 0.1], 6).expect("stable").0,
+            sensor: Sensor::EXACT,
+            terms: Vec::new(),
+            rule: ReversalRule::EXACT,
+        };
+        let v: Vec<f64> = (0..600).map(|t| (0.07 * f64::from(t)).sin()).collect();
+        let y = system.simulate(&v, Span::alone(v.len()));
+        let criterion = Criterion { filter: vec![-0.3], sd: 0.01 };
+        for from in [0, 200, 201, 310, 404] {
+            let stretch = Stretch::all(&[(&v[from..], &y[from..])]).remove(0);
+            let deviance = |stretch| Sensitivities::deviance(&system, &[stretch], &criterion);
+            let whole = deviance(stretch.clone());
+            assert!(from == 0 || whole > 10.0, "{from} {whole}");
+            let behind = stretch.behind_earlier_inputs(&system, 0);
+            assert_eq!(behind.skipped, 8);
+            assert!(deviance(behind.clone()) < 1e-12, "{from} {}", deviance(behind));
+        }
+    }
 }

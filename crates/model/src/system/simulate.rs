@@ -64,6 +64,23 @@ impl System {
         Some(self.linear.run(&u))
     }
 
+    /// The first sample at which the position does not depend on the input before the record, which a law that moves reversals remembers: where the runs that
+    /// came from either side agree from then on. None where they never do.
+    pub fn first_known_position(&self, v: &[f64]) -> Option<usize> {
+        let (low, high) = v.iter().fold((f64::MAX, f64::MIN), |(low, high), v| (low.min(*v), high.max(*v)));
+        let travel = 2.0 * (high - low);
+        let [one, other] = [-travel, travel].map(|from| {
+            let mut position: Vec<f64> =
+                v.first().map(|first| first + from).into_iter().chain(v.iter().copied()).collect();
+            for term in &self.terms {
+                term.law.position(&term.values, &mut position);
+            }
+            position
+        });
+        let differ = one.iter().zip(&other).skip(1).rposition(|(one, other)| one != other);
+        Some(differ.map_or(0, |last| last + 1)).filter(|first| *first < v.len())
+    }
+
     /// Where the working point is.
     pub fn path(&self, v: &[f64], span: Span) -> Path {
         Path::of(v, (&self.borders, self.rule), (&self.terms, span), None)
@@ -101,5 +118,34 @@ impl System {
             term.law.output(&term.values, motion, *span, &mut y);
         }
         y
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::system::LAWS;
+
+    #[test]
+    fn a_position_behind_a_play_is_known_once_the_input_has_crossed_it() {
+        let law = LAWS.into_iter().find(|law| law.name() == "play").expect("a law");
+        let with = |terms| System {
+            borders: Borders::new(&[(-1.0, -1.0), (1.0, 1.0)], &[(-1.0, -1.0), (1.0, 1.0)]).expect("tables"),
+            linear: LinearPart::new(&[], &[1.0], 0).expect("a gain").0,
+            sensor: Sensor::EXACT,
+            terms,
+            rule: ReversalRule::EXACT,
+        };
+        let v = [0.0, 1.0, 2.0, 1.0, 0.0, -1.0, -2.0];
+        let known = |plays: &[f64]| {
+            let terms = plays.iter().map(|play| Term { law, values: vec![*play] });
+            with(terms.collect()).first_known_position(&v)
+        };
+        assert_eq!(known(&[]), Some(0));
+        assert_eq!(known(&[1.0]), Some(1));
+        assert_eq!(known(&[2.0]), Some(2));
+        // From 2 to -1 and no farther.
+        assert_eq!(known(&[3.0]), Some(5));
+        assert_eq!(known(&[5.0]), None);
     }
 }
