@@ -48,7 +48,6 @@ mod nominal;
 mod nominal_model;
 mod phase;
 pub mod posterior;
-mod price;
 mod records;
 mod residuals;
 mod settings;

@@ -48,6 +48,15 @@ pub fn regression(records: &[(&[f64], &[f64])], delay: isize) -> Option<Alignmen
     })
 }
 
+/// Relative distance to a power of a thousand within which a factor is taken for one of units.
+const NEAR: f64 = 0.03;
+
+/// A gain that is a sign, a power of a thousand, or both: the sides measure in other units, and all values are in those of the machine.
+pub fn unit_factor(gain: f64) -> Option<f64> {
+    let factor = gain.signum() * libm::pow(1000.0, (libm::log10(gain.abs()) / 3.0).round());
+    (factor.is_finite() && factor != 1.0 && (gain / factor - 1.0).abs() < NEAR).then_some(factor)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -22,6 +22,7 @@
 
 pub mod alignment;
 pub mod change_point;
+mod derivative;
 pub mod energy;
 pub mod hysteresis;
 pub mod linear;

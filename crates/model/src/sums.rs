@@ -22,11 +22,35 @@ pub fn energy(x: &[f64]) -> f64 {
     dot(x, x)
 }
 
+/// Samples of a piece, at least.
+const LEAST_PIECE: usize = 5;
+
+/// Mean of a signal over so many equal pieces, two at least, and its standard error by the scatter of their means; what fills no piece is left out. None where pieces
+/// would be too short.
+pub fn mean_over_pieces(x: &[f64], pieces: usize) -> Option<(f64, f64)> {
+    let length = x.len() / pieces;
+    if length < LEAST_PIECE {
+        return None;
+    }
+    let means = || x.chunks_exact(length).map(|piece| piece.iter().sum::<f64>() / length as f64);
+    let count = means().count() as f64;
+    let mean = means().sum::<f64>() / count;
+    let variance = means().map(|m| (m - mean).powi(2)).sum::<f64>() / (count - 1.0);
+    Some((mean, (variance / count).sqrt()))
+}
+
 #[cfg(test)]
 mod tests {
     use proptest::prelude::*;
 
     use super::*;
+
+    #[test]
+    fn a_mean_has_the_error_of_its_pieces() {
+        let x: Vec<f64> = (0..40).map(|t| if t < 20 { 1.0 } else { 3.0 }).collect();
+        assert_eq!(mean_over_pieces(&x, 2), Some((2.0, 1.0)));
+        assert_eq!(mean_over_pieces(&x, 9), None);
+    }
 
     proptest! {
         #[test]

@@ -21,5 +21,5 @@ mod surrogate;
 pub use missing::is_imitation;
 pub(crate) use missing::{causes, missing};
 pub use pair::{Basis, Differences, MachineRecord, Shift, compare, compare_with};
-pub use rows::{Row, RowKind, unit_factor};
+pub use rows::{Row, RowKind};
 pub use source::Source;

@@ -4,6 +4,7 @@ use super::errors::{carrying_without_initial_state, errors, run_from_the_state_o
 use super::rows::{Row, rows};
 use super::selection::{Context, Difference, with};
 use super::source::Source;
+use super::surrogate::SMALL_MISFIT;
 use crate::evidence::nominal;
 use crate::workers::{Serial, Workers};
 use switchback_identify::free::FreeError;
@@ -11,6 +12,7 @@ use switchback_identify::record::{Criterion, Stretch};
 use switchback_model::Record;
 use switchback_model::alignment::{Alignment, align, regression};
 use switchback_model::stray::screened;
+use switchback_model::sums::mean_over_pieces;
 use switchback_model::system::{Quantity, Scale, System};
 
 /// A record of the machine.
@@ -118,8 +120,15 @@ pub fn compare_with(
     let scale =
         Scale::of(&base.linear, base.rule, &plain.iter().map(|s| (&s.v[..], &s.y[..])).collect::<Vec<_>>());
     let samples = plain.iter().map(|s| s.v.len()).sum();
-    let mut context =
-        Context { workers, base: &base, stretches: stretches_for(&base), criterion, scale: &scale, samples };
+    let mut context = Context {
+        workers,
+        base: &base,
+        stretches: stretches_for(&base),
+        criterion,
+        scale: &scale,
+        samples,
+        misfit: found.misfit(noise).max(SMALL_MISFIT * samples as f64),
+    };
     let mut selected = context.select(start(regression(&outputs, 0), aligned));
     for _ in 1..ROUNDS {
         let (aligned, _) = with(&base, &selected.differences);
@@ -157,30 +166,17 @@ pub fn compare_with(
 
 /// The differences from which a selection starts: a factor far from one, where the regression on the prediction finds it.
 fn start(now: Option<Alignment>, best: Option<Alignment>) -> Vec<Difference> {
-    const NEAR: std::ops::Range<f64> = 0.2..5.0;
-    match now.and(best) {
-        Some(best) if !NEAR.contains(&best.factor) => vec![Difference::Quantity(Quantity::Gain, best.factor)],
-        _ => Vec::new(),
-    }
+    let far = now.and(best).filter(|best| !(0.2..5.0).contains(&best.factor));
+    far.map(|best| Difference::Quantity(Quantity::Gain, best.factor)).into_iter().collect()
 }
 
-/// Pieces of a record whose means are compared.
+/// Pieces of a record whose means are compared; Student's quantile of 19 degrees of freedom at a two-sided level of 10⁻³.
 const PIECES: usize = 20;
-/// Student's quantile of 19 degrees of freedom at a two-sided level of 10⁻³.
 const BEYOND_CHANCE: f64 = 3.88;
 
 /// The mean error of a record, where it is beyond chance by its scatter over pieces, and as large as a tenth of the noise.
 fn shift(record: usize, y: &[f64], run: &[f64], noise: f64) -> Option<Shift> {
     let errors: Vec<f64> = y.iter().zip(run).map(|(y, run)| y - run).collect();
-    let length = errors.len() / PIECES;
-    if length < 5 {
-        return None;
-    }
-    let means: Vec<f64> =
-        errors.chunks_exact(length).map(|piece| piece.iter().sum::<f64>() / length as f64).collect();
-    let count = means.len() as f64;
-    let offset = means.iter().sum::<f64>() / count;
-    let variance = means.iter().map(|m| (m - offset).powi(2)).sum::<f64>() / (count - 1.0);
-    let se = (variance / count).sqrt();
+    let (offset, se) = mean_over_pieces(&errors, PIECES)?;
     (offset.abs() > BEYOND_CHANCE * se && offset.abs() > 0.1 * noise).then_some(Shift { record, offset, se })
 }

@@ -4,11 +4,11 @@ use super::reversals::{moves_reversals, profiled};
 use super::selection::{Context, Difference, Selected, quantities, with};
 use super::source::Identified;
 use super::surrogate::own_values;
-use crate::price::price;
 use crate::workers::Workers;
 use nalgebra::{DMatrix, DVector};
 use switchback_identify::record::Sensitivities;
-use switchback_model::system::{Quantity, System, Unit};
+use switchback_model::alignment::unit_factor;
+use switchback_model::system::{Quantity, System, Unit, price};
 
 /// What kind of thing a row is about.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -93,15 +93,6 @@ impl Row {
             ..self
         }
     }
-}
-
-/// Relative distance to a power of a thousand within which a factor is taken for one of units.
-const NEAR: f64 = 0.03;
-
-/// A gain that is a sign, a power of a thousand, or both: the sides measure in other units, and all values are in those of the machine.
-pub fn unit_factor(gain: f64) -> Option<f64> {
-    let factor = gain.signum() * libm::pow(1000.0, (libm::log10(gain.abs()) / 3.0).round());
-    (factor.is_finite() && factor != 1.0 && (gain / factor - 1.0).abs() < NEAR).then_some(factor)
 }
 
 /// All rows: those that differ first, by what the gap would grow by without them.

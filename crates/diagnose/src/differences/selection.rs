@@ -2,10 +2,9 @@
 
 use super::reversals::{fit_across_reversals, moves_reversals};
 use super::surrogate::{gains, scores, starts};
-use crate::price::price;
 use crate::workers::Workers;
 use switchback_identify::record::{Criterion, Effort, Sensitivities, Stretch, fit};
-use switchback_model::system::{Quantity, Scale, System, Term};
+use switchback_model::system::{Quantity, Scale, System, Term, price};
 
 /// One difference between two systems.
 #[derive(Debug, Clone, PartialEq)]
@@ -83,7 +82,7 @@ impl Selected {
 
 /// Candidates that are fitted at each step, of those that are scored.
 const FITTED: usize = 5;
-/// A further difference must explain this share of what those before it explain: less is no difference that anybody would act on.
+/// A further difference must explain this share of the gap, or more than the system that stands for the source may miss of it: less can come from that.
 const LEAST_SHARE: f64 = 0.01;
 /// Most differences.
 const MOST: usize = 10;
@@ -102,6 +101,8 @@ pub(super) struct Context<'a, W> {
     pub(super) criterion: Criterion,
     pub(super) scale: &'a Scale,
     pub(super) samples: usize,
+    /// Deviance by which the base misses the source.
+    pub(super) misfit: f64,
 }
 
 impl<W: Workers> Context<'_, W> {
@@ -178,7 +179,8 @@ impl<W: Workers> Context<'_, W> {
         let best = fits.into_iter().min_by(|x, y| self.worth(x).total_cmp(&self.worth(y)))?;
         let explained = Sensitivities::deviance(self.base, &self.stretches, &self.criterion) - now.deviance;
         let gained = now.deviance - best.deviance;
-        (self.worth(&best) < self.worth(now) && gained > LEAST_SHARE * explained).then_some(best)
+        let least = self.misfit.min(LEAST_SHARE * explained);
+        (self.worth(&best) < self.worth(now) && gained > least).then_some(best)
     }
 
     /// The selection without each of its differences, the others fitted again.

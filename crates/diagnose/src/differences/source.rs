@@ -5,7 +5,7 @@ use super::surrogate::{stretches, surrogate};
 use crate::evidence::nominal;
 use crate::workers::Workers;
 use switchback_identify::free::FreeError;
-use switchback_identify::record::{Criterion, Stretch};
+use switchback_identify::record::{Criterion, Sensitivities, Stretch};
 use switchback_model::Record;
 use switchback_model::reversal::ReversalRule;
 use switchback_model::system::System;
@@ -30,6 +30,15 @@ pub(super) struct Identified {
 }
 
 impl Identified {
+    /// Sum of its squared errors over the variance of the machine's noise. Records of another machine have noise of their own, beside which a misfit is not
+    /// seen: it may be any.
+    pub(super) fn misfit(&self, noise: f64) -> f64 {
+        if !self.is_carried && !self.records.is_empty() {
+            return f64::INFINITY;
+        }
+        Sensitivities::deviance(&self.system, &self.records, &Criterion { filter: Vec::new(), sd: noise })
+    }
+
     /// The system on borders dense enough for a change of their curvature, continued over the range of the machine's input. Where a law moves reversals, the rule that places these without it is not seen in the
     /// source, and is the machine's.
     pub(super) fn base(&self, machine: ReversalRule, range: (f64, f64)) -> System {

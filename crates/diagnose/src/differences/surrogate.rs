@@ -3,7 +3,6 @@
 use super::errors::errors;
 use super::reversals::{fit_across_reversals, moves_reversals, profiled};
 use crate::evidence::{behind, nominal};
-use crate::price::price;
 use crate::workers::Workers;
 use nalgebra::{DMatrix, DVector};
 use rand::{RngExt, SeedableRng};
@@ -13,10 +12,10 @@ use switchback_identify::free::FreeError;
 use switchback_identify::record::{Criterion, Effort, Sensitivities, Stretch, fit};
 use switchback_model::record::Record;
 use switchback_model::reversal::{ReversalRule, Timing};
-use switchback_model::system::{LAWS, LinearPart, Quantity, Scale, System, Term};
+use switchback_model::system::{LAWS, LinearPart, Quantity, Scale, System, Term, price};
 
 /// Square of a misfit over that of the machine's noise that matters to no difference: the carrier has it on both sides.
-const SMALL_MISFIT: f64 = 0.02;
+pub(super) const SMALL_MISFIT: f64 = 0.02;
 /// Most effects that a surrogate may have.
 const MOST_EFFECTS: usize = 3;
 /// Share of the misfit that must go for more detail to be worth having.
@@ -29,6 +28,9 @@ const ROUNDS: usize = 4;
 const MIDDLING: usize = 2;
 /// Halvings of the distance between knots once the structure is found, at most.
 const MOST_HALVINGS: usize = 2;
+
+/// Leads of reversals that are tried first.
+const LEADS: [u16; 7] = [64, 128, 224, 352, 512, 768, 1152];
 
 /// Fits that only the structure depends on, or many knots.
 const STEP: Effort = Effort { iterations: 12, tolerance: 1e-5 };
@@ -180,8 +182,9 @@ impl<W: Workers> Search<'_, W> {
     /// The system with effects, poles and knots added while these explain enough, and without those that are needless then; not beyond the number of parameters
     /// with which another system is as good as the source.
     fn grown(&self, start: &System, most: Option<usize>) -> (System, f64) {
-        let [one, other] = [retimed(start), start.clone()].map(|start| self.fit(&start, Effort::FINAL));
-        let (mut system, mut deviance) = if one.1 < other.1 { one } else { other };
+        let fitted = start.with_every_timing().map(|start| self.fit(&start, Effort::FINAL));
+        let best = fitted.min_by(|x, y| x.1.total_cmp(&y.1)).expect("its own timing");
+        let (mut system, mut deviance) = self.with_lead(best);
         let small = self.small();
         for _ in 0..MOST_EFFECTS {
             if deviance < small || most.is_some_and(|most| charged(&system) >= most) {
@@ -207,6 +210,28 @@ impl<W: Workers> Search<'_, W> {
         self.without_the_needless(system, deviance)
     }
 
+    /// The system with reversals that lead the velocity, by the lead that fits best, where that explains enough.
+    fn with_lead(&self, plain: (System, f64)) -> (System, f64) {
+        if plain.1 < self.small() {
+            return plain;
+        }
+        let leading = |lead| System {
+            rule: ReversalRule { timing: Timing::ByVelocity { lead }, ..plain.0.rule },
+            ..plain.0.clone()
+        };
+        let best_of = |leads: &[u16]| {
+            let tried = self.workers.map(leads, |lead| (self.fit(&leading(*lead), STEP).1, *lead));
+            tried.into_iter().min_by(|x, y| x.0.total_cmp(&y.0)).expect("a lead")
+        };
+        let mut best = best_of(&LEADS);
+        let mut step = best.1 / 4;
+        while step > 0 {
+            let around = best_of(&[best.1.saturating_sub(step), best.1 + step]);
+            if around.0 < best.0 { best = around } else { step /= 2 }
+        }
+        if best.0 > LEAST_GAIN * plain.1 { plain } else { self.fit(&leading(best.1), Effort::FINAL) }
+    }
+
     /// Without the terms and poles that cost more than they explain.
     fn without_the_needless(&self, mut system: System, mut deviance: f64) -> (System, f64) {
         loop {
@@ -222,7 +247,7 @@ impl<W: Workers> Search<'_, W> {
         }
     }
 
-    /// The system with one effect more, with one pole more, or with borders on two or four times as many knots; each with reversals at samples and between.
+    /// The system with one effect more, with one pole more, or with borders on two or four times as many knots; each with all timings of reversals.
     fn larger(&self, system: &System) -> Vec<System> {
         let with = |term| {
             let mut with = system.clone();
@@ -231,10 +256,9 @@ impl<W: Workers> Search<'_, W> {
         };
         let effects = self.candidates(system).into_iter().map(with);
         let linear = system.linear.larger().into_iter().map(|linear| System { linear, ..system.clone() });
-        let larger: Vec<System> =
-            effects.chain(linear).chain([0.5, 0.25].map(|share| self.refined(system, share))).collect();
-        let retimed: Vec<System> = larger.iter().chain([system]).map(retimed).collect();
-        [larger, retimed].concat()
+        let refined = [0.5, 0.25].map(|share| self.refined(system, share));
+        let larger = effects.chain(linear).chain(refined).chain([system.clone()]);
+        larger.flat_map(|system| system.with_every_timing()).collect()
     }
 
     /// The laws whose change of the run explains most of the error, beside the coordinates of the system: the best start of each, the best laws first.
@@ -262,15 +286,6 @@ impl<W: Workers> Search<'_, W> {
 fn charged(system: &System) -> usize {
     let coordinates = Quantity::coordinates(system);
     coordinates.iter().filter(|q| !matches!(q, Quantity::Knot(_))).count()
-}
-
-/// The same with reversals that take effect at samples instead of between them, or conversely: an effect before the operator changes which of both is right.
-fn retimed(system: &System) -> System {
-    let timing = match system.rule.timing {
-        Timing::BetweenSamples => Timing::AtSamples,
-        Timing::AtSamples | Timing::AtConfirmation => Timing::BetweenSamples,
-    };
-    System { rule: ReversalRule { timing, ..system.rule }, ..system.clone() }
 }
 
 /// The system without one term, or with a smaller linear part; and the parameters that this saves.

@@ -2,9 +2,8 @@
 
 use super::context::Context;
 use super::refine::Refined;
-use crate::price::price;
 use switchback_identify::record::{Chord, Criterion, Effort, Sensitivities, Stretch};
-use switchback_model::system::{Quantity, System, Term};
+use switchback_model::system::{Quantity, System, Term, price};
 
 /// What a fit with an effect gains beside the fit without.
 #[derive(Debug, Clone)]

@@ -5,7 +5,7 @@ use crate::identification::FreeRun;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use switchback_model::hysteresis::Branch;
-use switchback_model::reversal::{ReversalRule, Timing};
+use switchback_model::reversal::{LEADS_PER_SAMPLE, ReversalRule, Timing};
 use switchback_model::system::{Borders, LAWS, LinearPart, Sensor, Span, System, Term};
 
 /// A machine as it is simulated: borders in output units, a linear part of unit gain, a reading, effects.
@@ -55,6 +55,14 @@ struct Reversal {
     band: f64,
     /// When it takes effect.
     timing: When,
+    /// Samples of `τ` where it is by the direction of `dv/dt + τ·d²v/dt²`; absent for none.
+    #[serde(default, skip_serializing_if = "is_none")]
+    #[schemars(range(min = 0, max = 1000))]
+    lead: f64,
+}
+
+fn is_none(lead: &f64) -> bool {
+    *lead == 0.0
 }
 
 #[derive(Debug, Clone, Copy, Serialize, Deserialize, JsonSchema)]
@@ -62,6 +70,7 @@ struct Reversal {
 enum When {
     AtSamples,
     BetweenSamples,
+    ByVelocity,
     AtConfirmation,
 }
 
@@ -124,7 +133,12 @@ impl From<Machine> for Wire {
                 timing: match rule.timing {
                     Timing::AtSamples => When::AtSamples,
                     Timing::BetweenSamples => When::BetweenSamples,
+                    Timing::ByVelocity { .. } => When::ByVelocity,
                     Timing::AtConfirmation => When::AtConfirmation,
+                },
+                lead: match rule.timing {
+                    Timing::ByVelocity { lead } => f64::from(lead) / LEADS_PER_SAMPLE,
+                    _ => 0.0,
                 },
             },
             terms: system
@@ -162,7 +176,7 @@ impl TryFrom<Wire> for Machine {
             return Err(format!("`lag` and `delay` must be within ±{LONGEST:e} samples"));
         }
         linear.delay = delay;
-        let numbers = [gain, zero, reversal.threshold, reversal.band, noise_sd];
+        let numbers = [gain, zero, reversal.threshold, reversal.band, reversal.lead, noise_sd];
         if !numbers.iter().all(is_finite) || numbers[2..].iter().any(|x| *x < 0.0) {
             return Err(
                 "`gain`, `zero`, `reversal` and `noise_sd` must be finite, the last two not negative"
@@ -181,6 +195,9 @@ impl TryFrom<Wire> for Machine {
         let timing = match reversal.timing {
             When::AtSamples => Timing::AtSamples,
             When::BetweenSamples => Timing::BetweenSamples,
+            When::ByVelocity => {
+                Timing::ByVelocity { lead: (LEADS_PER_SAMPLE * reversal.lead).round() as u16 }
+            }
             When::AtConfirmation => Timing::AtConfirmation,
         };
         let rule = ReversalRule { threshold: reversal.threshold, band: reversal.band, timing };

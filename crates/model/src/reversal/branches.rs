@@ -1,6 +1,10 @@
 //! Which border the working point is on, read off the input alone.
 
+use crate::derivative::derivative;
 use crate::hysteresis::Branch;
+
+/// Steps of a lead in a sample.
+pub const LEADS_PER_SAMPLE: f64 = 64.0;
 
 /// Where between two samples a reversal takes effect.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -11,6 +15,13 @@ pub enum Timing {
     /// time spent within the band (on a noisy input the extremum itself is a poor mark). The sample there is shared between the
     /// borders, by the part of its interval `[t−½, t+½]` that follows: what a rig that knows no samples does.
     BetweenSamples,
+    /// At the same instant, no sample shared: each sample is on the border of the direction of `dv/dt + τ·d²v/dt²` there. With `τ = 0` what a simulation does whose
+    /// friction follows the sign of the velocity, read by a sensor that averages nothing; with `τ > 0` that of a soft constraint as in MuJoCo, which resists the velocity to
+    /// come.
+    ByVelocity {
+        /// `τ`, sixty-fourths of a sample.
+        lead: u16,
+    },
     /// At the sample that confirms it, the first one that has moved back by more than the threshold: all that a simulation in real
     /// time can know. Until then the old border stays in force. Without a threshold this is [`Self::AtSamples`].
     AtConfirmation,
@@ -31,13 +42,21 @@ impl ReversalRule {
     /// Exactly (2.3): every move counts, at its sample.
     pub const EXACT: Self = Self { threshold: 0.0, band: 0.0, timing: Timing::AtSamples };
 
+    /// The rule with every timing that needs no confirmation, its own first.
+    pub fn with_every_timing(self) -> impl Iterator<Item = Self> {
+        let all = [Timing::AtSamples, Timing::BetweenSamples, Timing::ByVelocity { lead: 0 }];
+        let others = all.into_iter().filter(move |timing| *timing != self.timing);
+        std::iter::once(self.timing).chain(others).map(move |timing| Self { timing, ..self })
+    }
+
     /// Samples of `v` after `t` that decide the branch of `t`: none, one, or as many as a move beyond the threshold takes.
     pub fn looks_ahead(&self) -> LookAhead {
         match self.timing {
             Timing::AtConfirmation => LookAhead::Never,
             _ if self.threshold > 0.0 => LookAhead::UntilConfirmed,
             Timing::AtSamples => LookAhead::Never,
-            Timing::BetweenSamples => LookAhead::OneSample,
+            Timing::BetweenSamples | Timing::ByVelocity { lead: 0 } => LookAhead::OneSample,
+            Timing::ByVelocity { .. } => LookAhead::UntilConfirmed,
         }
     }
 }
@@ -106,6 +125,11 @@ impl Branches {
     ///
     pub fn of(v: &[f64], rule: ReversalRule) -> Option<Self> {
         let ReversalRule { threshold, band, timing } = rule;
+        if let Timing::ByVelocity { lead: lead @ 1.. } = timing {
+            let ahead = |(v, slope): (&f64, f64)| v + f64::from(lead) / LEADS_PER_SAMPLE * slope;
+            let ahead: Vec<f64> = v.iter().zip(derivative(v)).map(ahead).collect();
+            return Self::of(&ahead, ReversalRule { timing: Timing::ByVelocity { lead: 0 }, ..rule });
+        }
         let (mut high, mut low) =
             (Extremum { value: *v.first()?, turn: 0 }, Extremum { value: v[0], turn: 0 });
         let mut direction = None;
@@ -125,15 +149,17 @@ impl Branches {
             };
             labels.push(direction.unwrap_or(Branch::Ascending));
             if let Some((branch, last)) = turned {
-                let mut turn = last;
-                if timing == Timing::BetweenSamples && direction.is_some() {
-                    let instant = if band > 0.0 { middle_of_rest(v, last, rule) } else { vertex(v, last) };
-                    turn = instant.round() as usize;
-                    shares.push((turn, 0.5 - (instant - turn as f64)));
-                }
-                if timing == Timing::AtConfirmation {
-                    turn = t - 1;
-                }
+                let instant = || if band > 0.0 { middle_of_rest(v, last, rule) } else { vertex(v, last) };
+                let turn = match timing {
+                    Timing::BetweenSamples if direction.is_some() => {
+                        let (instant, turn) = (instant(), instant().round());
+                        shares.push((turn as usize, 0.5 - (instant - turn)));
+                        turn as usize
+                    }
+                    Timing::ByVelocity { .. } if direction.is_some() => instant().floor() as usize,
+                    Timing::AtConfirmation => t - 1,
+                    Timing::AtSamples | Timing::BetweenSamples | Timing::ByVelocity { .. } => last,
+                };
                 let from = if direction.is_some() { turn + 1 } else { 0 };
                 labels[from..].fill(branch);
                 match direction {
@@ -191,4 +217,35 @@ fn middle_of_rest(v: &[f64], last: usize, rule: ReversalRule) -> f64 {
     let stay = (0..=last).rev().take_while(|t| near(t, rule.threshold));
     let first = stay.filter(|t| near(t, rule.band)).last().unwrap_or(last);
     0.5 * (first + last) as f64
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn by_velocity_each_sample_is_on_the_border_of_its_velocity() {
+        let rule = ReversalRule { timing: Timing::ByVelocity { lead: 0 }, ..ReversalRule::EXACT };
+        // Extrema fall anywhere between samples, and never on one.
+        let angle = |t: usize| 0.283 * t as f64 + 0.1;
+        let v: Vec<f64> = (0..500).map(|t| angle(t).sin()).collect();
+        let branches = Branches::of(&v, rule).expect("it moves");
+        for (t, label) in branches.labels().iter().enumerate().take(499).skip(branches.first_known()) {
+            let rises = angle(t).cos() > 0.0;
+            assert_eq!(*label == Branch::Ascending, rises, "sample {t}");
+            assert_eq!(branches.turned(t), None);
+        }
+        // With the speed and one and a half times the acceleration.
+        let ahead = Branches::of(&v, ReversalRule { timing: Timing::ByVelocity { lead: 96 }, ..rule });
+        for (t, label) in ahead.expect("it moves").labels().iter().enumerate().take(495).skip(20) {
+            let rises = angle(t).cos() - 1.5 * 0.283 * angle(t).sin() > 0.0;
+            assert_eq!(*label == Branch::Ascending, rises, "sample {t}");
+        }
+        let others = [Timing::AtSamples, Timing::BetweenSamples];
+        for branches in others.map(|timing| Branches::of(&v, ReversalRule { timing, ..rule }).expect("moves"))
+        {
+            let differs = |t: &usize| (branches.labels()[*t] == Branch::Ascending) != (angle(*t).cos() > 0.0);
+            assert!((2..499).filter(differs).count() > 10);
+        }
+    }
 }

@@ -4,6 +4,6 @@ mod branches;
 mod sensor;
 mod strokes;
 
-pub use branches::{Branches, LookAhead, ReversalRule, Timing};
+pub use branches::{Branches, LEADS_PER_SAMPLE, LookAhead, ReversalRule, Timing};
 pub use sensor::SensorNoise;
 pub use strokes::{Stroke, Strokes};

@@ -1,5 +1,6 @@
 //! The motion of the position that acts: direction, speed, and the past since the last reversal.
 
+use crate::derivative::{derivative, second_derivative};
 use crate::hysteresis::Branch;
 use crate::reversal::{Branches, ReversalRule};
 
@@ -10,9 +11,9 @@ pub struct Motion {
     pub position: Vec<f64>,
     /// Direction, ±1, kept at rest; between these at a turning sample that both borders share.
     pub direction: Vec<f64>,
-    /// Central difference of the position, input units a sample.
+    /// Derivative of the position, input units a sample.
     pub velocity: Vec<f64>,
-    /// Second difference, input units a sample squared.
+    /// Second derivative, input units a sample squared.
     pub acceleration: Vec<f64>,
     /// Size of the last move, kept at rest.
     pub speed: Vec<f64>,
@@ -43,8 +44,7 @@ impl Motion {
         for t in 1..count {
             since[t] = if direction[t] * direction[t - 1] < 0.0 { 0.0 } else { since[t - 1] + 1.0 };
         }
-        let velocity = (0..count as isize).map(|t| 0.5 * (at(t + 1) - at(t - 1))).collect();
-        let acceleration = (0..count as isize).map(|t| at(t + 1) - 2.0 * at(t) + at(t - 1)).collect();
+        let (velocity, acceleration) = (derivative(position), second_derivative(position));
         Self { position: position.to_vec(), direction, velocity, acceleration, speed, moved, since, rest }
     }
 }

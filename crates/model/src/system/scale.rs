@@ -45,7 +45,7 @@ impl Scale {
             }
             let motion = Motion::of(v, rule);
             moves.extend(motion.moved.iter().copied().filter(|m| *m > 0.0));
-            bends += motion.acceleration.iter().map(|a| a * a).sum::<f64>();
+            bends += v.windows(3).map(|v| (v[2] - 2.0 * v[1] + v[0]).powi(2)).sum::<f64>();
         }
         let count = f64::max(count, 1.0);
         let middle = moves.len() / 2;

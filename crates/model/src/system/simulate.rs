@@ -38,6 +38,12 @@ pub struct System {
 }
 
 impl System {
+    /// The system with every timing of its reversals, its own first.
+    pub fn with_every_timing(&self) -> impl Iterator<Item = Self> + use<> {
+        let system = self.clone();
+        self.rule.with_every_timing().map(move |rule| Self { rule, ..system.clone() })
+    }
+
     /// Whether it is stable and its terms are effects of their own.
     pub fn is_sound(&self, scale: &Scale) -> bool {
         self.linear.is_stable() && self.terms.iter().all(|t| t.law.is_sound(&t.values, scale))

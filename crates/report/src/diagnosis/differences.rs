@@ -4,9 +4,10 @@ use super::probability::probability;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use switchback_diagnose::Status;
-use switchback_diagnose::differences::{Basis, Differences, RowKind, is_imitation, unit_factor};
+use switchback_diagnose::differences::{Basis, Differences, RowKind, is_imitation};
 use switchback_io::diagnosis::{Report, ReportedDifference, Source, Units, digits, whole_percent};
 use switchback_io::output::{columns, wrapped};
+use switchback_model::alignment::unit_factor;
 
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
