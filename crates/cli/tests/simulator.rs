@@ -261,3 +261,26 @@ fn a_zero_or_a_sign_that_differs_between_two_days_comes_first() {
         assert!(page["gap"]["closure"]["estimate"].as_f64().is_some_and(|share| share > 0.9), "{page:#}");
     }
 }
+
+#[test]
+fn parts_of_the_records_are_asked_for_the_same_verdict() {
+    let folder = folder(|y| y.iter().map(|y| 1.2 * y).collect());
+    let page = json(&folder, &["gap", "record.csv", "--stability", "2", "--json", "--quiet"]);
+    let stability = &page["stability"];
+    assert_eq!(stability["samples"].as_array().map(Vec::len), Some(2));
+    // One recording: none is judged alone.
+    assert_eq!(stability["recordings"].as_array().map(Vec::len), Some(0));
+    assert_eq!(stability["share"], 1.0, "{stability}");
+    let (code, refused) = run(&folder, &["gap", "record.csv", "--stability", "0"]);
+    assert!(code == Some(2) && refused.contains("1..=1000"), "{refused}");
+
+    // The second recording is of a machine without play.
+    let v = walk(4000, 6);
+    folder.write("monday.csv", &table(&v, &machine(&v, 1.0), None));
+    folder.write("tuesday.csv", &table(&v, &machine(&v, 0.0), None));
+    let (_, words) = run(&folder, &["gap", "monday.csv", "tuesday.csv", "--stability", "1"]);
+    assert!(words.contains("recordings alone"), "{words}");
+    assert!(words.contains("tuesday alone says: "), "{words}");
+    let page = json(&folder, &["gap", "record.csv", "--json", "--quiet"]);
+    assert!(page.get("stability").is_none());
+}

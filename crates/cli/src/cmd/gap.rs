@@ -6,6 +6,7 @@ use crate::failure::{CommandResult, Outcome};
 use crate::options::{Output, Threads};
 use crate::progress::Watch;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
+use clap::value_parser;
 use miette::Diagnostic;
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -14,7 +15,8 @@ use switchback_diagnose::Effect;
 use switchback_diagnose::fitted::Shares;
 use switchback_host::{FmuError, Map, Simulator, predictions};
 use switchback_io::diagnosis::{
-    self, Checked, Expectation, NoPosterior, Report, Request, Subject, examine_watched, posterior, prior,
+    self, Checked, DiagnosisError, Expectation, NoPosterior, Report, Request, Subject, examine_watched,
+    posterior, prior, stability,
 };
 use switchback_io::model;
 use switchback_io::output::note;
@@ -81,6 +83,11 @@ pub(crate) struct Args {
     /// within 5 %"; may be given more than once. Exit code 1 where it does not, after everything is written.
     #[arg(long, value_name = "EXPECTATION", value_parser = Expectation::parse)]
     expect: Vec<Expectation>,
+
+    /// Also diagnose so many samples of three quarters of the records, and each recording alone, and say which give the same verdict [default: 10
+    /// where only the option is given]
+    #[arg(long, value_name = "SAMPLES", num_args = 0..=1, default_missing_value = "10", value_parser = value_parser!(u16).range(1..=1000), conflicts_with = "power")]
+    stability: Option<u16>,
 
     /// Also say why the first candidate comes first: the errors that each saves, by how far ahead it predicts.
     #[arg(long, conflicts_with = "power")]
@@ -149,8 +156,14 @@ pub(crate) fn run(args: &Args) -> CommandResult {
     let subject = subject.noting(notes);
     let watch = Watch::new(args.output.quiet);
     let settings = request(args)?.settings();
-    let report = args.threads.install(|| examine_watched(subject, &settings, &watch))?;
-    let report = report.map_err(|error| error.in_file(data.place()))?;
+    let report = args.threads.install(|| {
+        let asked = args.stability.map(|samples| (subject.clone(), samples));
+        let mut report = examine_watched(subject, &settings, &watch)?;
+        report.stability =
+            asked.map(|(subject, samples)| stability(&subject, &settings, (&report, samples.into()), &watch));
+        Ok(report)
+    })?;
+    let report = report.map_err(|error: DiagnosisError| error.in_file(data.place()))?;
     watch.finish();
     if let Some(folder) = folder {
         let mut files = artefacts(&report)?;

@@ -1,6 +1,7 @@
 //! The diagnosis, its independent pieces on all cores.
 
 use super::shift::{Shift, restored, shifts, without};
+use super::stability::Stability;
 use super::{DiagnosisError, Source, Subject};
 use crate::progress::Stages;
 use rayon::prelude::*;
@@ -18,6 +19,8 @@ pub struct Report {
     pub diagnosis: Diagnosis,
     /// Held-out recordings with another zero or gain than the fit records, which the diagnosis is without.
     pub shifts: Vec<Shift>,
+    /// The verdicts of parts of the records, where these were asked for.
+    pub stability: Option<Stability>,
 }
 
 /// Pieces of a diagnosis as tasks of the thread pool, counted as they are done.
@@ -72,7 +75,7 @@ pub fn examine_watched(
     }
     diagnosis.limitations.extend(notes);
     diagnosis.limitations.extend(left_out(settings));
-    Ok(Report { rig, source, diagnosis, shifts })
+    Ok(Report { rig, source, diagnosis, shifts, stability: None })
 }
 
 /// What a reader must know where candidates were left out.

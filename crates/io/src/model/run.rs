@@ -41,14 +41,6 @@ impl Run {
         (!judged.is_empty()).then(|| count as f64 / judged.len() as f64)
     }
 
-    /// By how much the measured outputs lie above the simulated ones, in the middle; the others are NaN.
-    pub fn offset(&self, measured: &[f64]) -> Option<f64> {
-        let judged = (self.start..self.y.len()).filter(|t| measured[*t].is_finite());
-        let mut above: Vec<f64> = judged.map(|t| measured[t] - self.y[t]).collect();
-        above.sort_by(f64::total_cmp);
-        above.get(above.len() / 2).copied()
-    }
-
     /// The fit figure on the outputs that were measured; the others are NaN.
     pub fn judged(self, measured: &[f64]) -> Self {
         let judged = (self.start..self.y.len()).filter(|t| measured[*t].is_finite());

@@ -13,31 +13,47 @@ use std::sync::Arc;
 use switchback_diagnose::Effect;
 use switchback_diagnose::posterior::Posterior;
 use switchback_io::diagnosis::{
-    GivenModel, NoPosterior, Report, Request, Subject, examine_watched, posterior, prior,
+    DiagnosisError, GivenModel, NoPosterior, Report, Request, Subject, examine_watched, posterior, prior,
+    stability,
 };
 use switchback_io::model;
 use switchback_io::output::Artefacts;
+use switchback_io::values::whole;
 use switchback_report::diagnosis as text;
 
-/// Diagnoses the gap between a model and the records.
+/// Diagnoses the gap between a model and the records, or what differs from other records.
 #[pyfunction]
-#[pyo3(signature = (records, options, model=None, heard=None))]
+#[pyo3(signature = (records, options, model=None, against=None, heard=None))]
 pub(crate) fn diagnose(
     py: Python<'_>,
     records: &Records,
     mut options: Options,
     model: Option<Model>,
+    against: Option<&Records>,
     heard: Heard<'_>,
 ) -> PyResult<Answer> {
     let (rig, about) = (Arc::clone(&records.rig), records.about.clone());
+    let against = against.map(|other| Arc::clone(&other.rig));
     Call::run(py, &heard, move |call| {
         let settings = request(&mut options)?.settings();
         let threads = options.threads()?;
+        let samples = options.value("--stability <SAMPLES>", whole(1..=1000))?;
         options.finish()?;
         let model = model.map(|(path, text)| GivenModel::of_text(&path, &text)).transpose()?;
-        let subject = Subject::of(Arc::unwrap_or_clone(rig), model.as_ref())?.noting(about.warnings);
-        let report = threads.install(|| examine_watched(subject, &settings, &*call))?;
-        let report = report.map_err(|error| error.in_file(&about.place))?;
+        let rig = Arc::unwrap_or_clone(rig);
+        let subject = match &against {
+            Some(other) => Subject::against(rig, other)?,
+            None => Subject::of(rig, model.as_ref())?,
+        };
+        let subject = subject.noting(about.warnings);
+        let report = threads.install(|| {
+            let asked = samples.map(|samples| (subject.clone(), samples));
+            let mut report = examine_watched(subject, &settings, &*call)?;
+            report.stability =
+                asked.map(|(subject, samples)| stability(&subject, &settings, (&report, samples), &*call));
+            Ok(report)
+        })?;
+        let report = report.map_err(|error: DiagnosisError| error.in_file(&about.place))?;
         Ok(Answer::new(Diagnosed { report, inputs: about.inputs }))
     })
 }

@@ -4,6 +4,7 @@ use super::differences::{Difference, written};
 use super::posterior::Posterior;
 use super::sentences;
 use super::shift::Shift;
+use super::stability::Stability;
 use schemars::{JsonSchema, Schema};
 use serde::{Deserialize, Serialize};
 use switchback_diagnose::fitted::{self, Shares};
@@ -67,6 +68,9 @@ pub(crate) struct GapFile {
     /// Held-out recordings whose output differs from that of the fit records' model by a constant or a factor: all else is of these recordings without it.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub shifts: Vec<Shift>,
+    /// The verdicts of parts of the records, where these were asked for.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub stability: Option<Stability>,
     /// What to read with care, a sentence each.
     pub limitations: Vec<String>,
     /// Version of Switchback that wrote it.
@@ -439,6 +443,7 @@ pub fn json(report: &Report) -> String {
         second_opinion: diagnosis.second_opinion.as_ref().map(second_opinion),
         posterior: diagnosis.classification.as_ref().map(Posterior::of),
         shifts: report.shifts.iter().map(Shift::of).collect(),
+        stability: report.stability.as_ref().map(Stability::of),
         limitations: diagnosis.limitations.clone(),
         version: env!("CARGO_PKG_VERSION").to_owned(),
     };

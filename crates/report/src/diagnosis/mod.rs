@@ -8,6 +8,7 @@ pub(crate) mod posterior;
 mod probability;
 mod sentences;
 mod shift;
+mod stability;
 mod why;
 mod words;
 

@@ -2,7 +2,7 @@
 
 use super::place;
 use super::probability::probability;
-use super::shift;
+use super::{shift, stability};
 use switchback_diagnose::differences::Basis;
 use switchback_diagnose::posterior::Classification;
 use switchback_diagnose::{Diagnosis, Effect, FittedParameter, Gap, Status, Verdict};
@@ -20,6 +20,12 @@ const MANY: f64 = 10.0;
 
 /// The sentences of the verdict, in the order in which they are read.
 pub(super) fn verdict(report: &Report) -> Vec<String> {
+    let stability = report.stability.iter().flat_map(stability::sentences);
+    of_all(report).into_iter().chain(stability).collect()
+}
+
+/// Those of all records together.
+fn of_all(report: &Report) -> Vec<String> {
     let units = Units::of(&report.rig);
     let diagnosis = &report.diagnosis;
     let mut sentences: Vec<String> = report.shifts.iter().map(|s| shift::sentence(s, &units)).collect();

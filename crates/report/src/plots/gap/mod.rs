@@ -110,7 +110,7 @@ mod tests {
             models: None,
             evidence: vec![],
         };
-        Report { rig: rig(), source: Source::Identified, diagnosis, shifts: Vec::new() }
+        Report { rig: rig(), source: Source::Identified, diagnosis, shifts: Vec::new(), stability: None }
     }
 
     fn cell(axis: &'static str, name: &str, share: f64) -> Cell {
