@@ -2,6 +2,7 @@
 
 mod error;
 mod free_run;
+mod misfit;
 mod page;
 mod request;
 mod table;

@@ -1,10 +1,10 @@
 //! What ran and how well.
 
+use super::misfit::outside_the_band;
 use schemars::{JsonSchema, Schema};
 use serde::Serialize;
 use std::fmt::Write;
 use switchback_diagnose::Effect;
-use switchback_io::diagnosis::digits;
 use switchback_io::identification::unit;
 use switchback_io::model::{Header, ModelFile, Run};
 use switchback_io::output::{stamped, stamped_schema};
@@ -41,26 +41,6 @@ pub(super) struct Page<'a> {
     version: &'static str,
 }
 
-/// Least share of measured outputs in the 95 % band of a model of the machine that was measured; noise and wear explain less of them, but not
-/// that most lie outside.
-const LEAST_COVERED: f64 = 0.5;
-
-/// A model of another machine, or outputs in another unit or from another zero.
-fn outside_the_band(file: &ModelFile, input: &InputSeries, run: &Run) -> Option<String> {
-    let y = input.y.as_ref()?;
-    let covered = run.covered(y).filter(|covered| *covered < LEAST_COVERED)?;
-    let unit = match unit(&file.header.output) {
-        "" => String::new(),
-        unit => format!(" {unit}"),
-    };
-    Some(format!(
-        "only {:.1} % of the measured outputs lie within the 95 % band, and their middle is {}{unit} off the model's: check units, zero \
-         and columns, and that the model is of this machine",
-        100.0 * covered,
-        digits(run.offset(y)?, 4)
-    ))
-}
-
 /// The JSON Schema of what `--json` prints.
 pub fn schema() -> Schema {
     stamped_schema::<Page<'_>>(SCHEMA)
@@ -79,7 +59,7 @@ impl<'a> Page<'a> {
             covered: input.y.as_ref().and_then(|y| run.covered(y)),
             warnings: [
                 input.warnings.clone(),
-                outside_the_band(file, input, run).into_iter().collect(),
+                input.y.as_ref().and_then(|y| outside_the_band(file, y, run)).into_iter().collect(),
                 header.identified_on.warnings(&input.v, header.sample_time, unit(&header.input)),
             ]
             .concat(),
