@@ -9,6 +9,7 @@
 | ``Rig.read``, ``Rig.from_frame`` | the files of a verb, or ``rig.toml`` |
 | ``identify`` | ``switchback identify`` |
 | ``diagnose``, ``power`` | ``switchback gap``, ``switchback gap --power`` |
+| ``compare`` | ``switchback gap --against``, ``--model``, or with ``y_sim`` |
 | ``plant``, ``design`` | ``switchback plant``, ``switchback design`` |
 | ``Model.simulate`` | ``switchback simulate`` |
 | ``study`` | ``switchback SCENARIO.toml`` |
@@ -23,7 +24,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from ._design import Design, EffectPower, Planted, Power, design, plant, power
-from ._diagnosis import Candidate, Diagnosis, Gap, Parameter, Place, RecordGap, Verdict, diagnose
+from ._diagnosis import Candidate, Diagnosis, Difference, Gap, Parameter, PartVerdict, Place, RecordGap, Stability, Verdict, compare, diagnose
 from ._identification import Flag, Identification, RecordFit, identify
 from ._methods import MethodExperiment, MethodRecords
 from ._model import Bode, Model, Point, Simulation
@@ -42,6 +43,7 @@ __all__ = [
     "Cell",
     "Design",
     "Diagnosis",
+    "Difference",
     "EffectPower",
     "Estimate",
     "Expectation",
@@ -52,6 +54,7 @@ __all__ = [
     "MethodRecords",
     "Model",
     "Parameter",
+    "PartVerdict",
     "Place",
     "Planted",
     "Point",
@@ -62,6 +65,7 @@ __all__ = [
     "Result",
     "Rig",
     "Simulation",
+    "Stability",
     "Study",
     "Summary",
     "SwitchbackError",
@@ -69,6 +73,7 @@ __all__ = [
     "Table",
     "Verdict",
     "__version__",
+    "compare",
     "design",
     "diagnose",
     "identify",

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from functools import cached_property
@@ -107,6 +108,31 @@ class Candidate(Row):
 
 
 @dataclass(frozen=True)
+class Difference(Row):
+    """A quantity of the machine beside that of the model, simulator or records compared with it."""
+
+    what: str
+    #: ``parameter``, which both sides have, or ``effect``.
+    kind: str
+    #: The effect whose parameter it is.
+    effect: Optional[str]
+    differs: bool
+    #: Its value in what was compared with the machine, a delay relative to the machine's; 0 for the strength of an effect that this lacks.
+    in_a: Optional[float]
+    #: Its value in the machine.
+    in_b: float
+    #: Standard error of the latter.
+    se: float
+    unit: str
+    #: Probability that the values differ.
+    probability: float
+    #: Share of the gap that would stay without aligning this one.
+    closure: float
+    #: The attribute of a MuJoCo joint that it is.
+    attribute: Optional[str]
+
+
+@dataclass(frozen=True)
 class Place(Row):
     """A part of the records, and how much of the gap lies there."""
 
@@ -123,6 +149,29 @@ class Place(Row):
     enrichment: Optional[float]
     #: False discovery rate at which the gap there is significant.
     q_value: Optional[float]
+
+
+@dataclass(frozen=True)
+class PartVerdict(Row):
+    """The verdict of a part of the records."""
+
+    #: The recording, or the number of the sample.
+    part: str
+    verdict: str
+    #: Whether it is that of all records.
+    agrees: bool
+
+
+@dataclass(frozen=True)
+class Stability:
+    """The verdicts of parts of the records."""
+
+    #: Share of all parts with the verdict of all records.
+    share: Optional[float]
+    #: Samples of three quarters of the records.
+    samples: Table[PartVerdict]
+    #: Each recording alone; empty where there is only one.
+    recordings: Table[PartVerdict]
 
 
 class Diagnosis(Result):
@@ -150,6 +199,20 @@ class Diagnosis(Result):
     def candidates(self) -> Table[Candidate]:
         """The candidates, best first."""
         return Table(Candidate.of(candidate) for candidate in self._data["candidates"])
+
+    @cached_property
+    def differences(self) -> Table[Difference]:
+        """Every quantity on both sides, those that differ first; empty where the model was identified from the rig's own records."""
+        return Table(Difference.of(difference) for difference in self._data["differences"])
+
+    @cached_property
+    def stability(self) -> Optional[Stability]:
+        """Which parts of the records give the same verdict; none where that was not asked for."""
+        found = self._data.get("stability")
+        if found is None:
+            return None
+        samples, recordings = (Table(PartVerdict.of(part) for part in found[name]) for name in ("samples", "recordings"))
+        return Stability(found["share"], samples, recordings)
 
     @cached_property
     def where(self) -> Table[Place]:
@@ -225,6 +288,7 @@ def diagnose(
     causal: bool = False,
     prior: Optional[Mapping[str, float]] = None,
     posterior: Optional[PathLike] = None,
+    stability: Optional[int] = None,
     threads: Optional[int] = None,
     progress: Optional[bool] = None,
 ) -> Diagnosis:
@@ -251,6 +315,8 @@ def diagnose(
     posterior
         Decide by this posterior, a file that ``switchback train`` has trained, on records that nobody designed; else rules decide, and the one built in
         where these show none of the candidates.
+    stability
+        Also diagnose so many samples of three quarters of the records, and each recording alone: :attr:`Diagnosis.stability`.
     threads, progress
         As in :func:`identify`.
 
@@ -268,11 +334,57 @@ def diagnose(
         causal=causal,
         prior=shares(prior),
         posterior=None if posterior is None else str(posterior),
+        stability=stability,
         threads=threads,
     )
     given = None if model is None else model_of(model)
     with shown(progress) as heard:
-        return Diagnosis(_native.diagnose(records_of(rig), options, given, heard))
+        return Diagnosis(_native.diagnose(records_of(rig), options, given, None, heard))
+
+
+def compare(
+    a: Union[Rig, Model, Any, PathLike, ArrayLike, Mapping[str, ArrayLike]],
+    b: Union[Rig, PathLike],
+    *,
+    threads: Optional[int] = None,
+    progress: Optional[bool] = None,
+) -> Table[Difference]:
+    """Every quantity of ``a`` beside that of the machine ``b``: those that differ first, with what aligning each closes.
+
+    ``compare(monday, tuesday).to_pandas()`` is a frame, a row a quantity. :func:`diagnose` says the same in sentences.
+
+    Parameters
+    ----------
+    a
+        What is compared: records of another day or unit (a :class:`Rig`, or a file of measurements), a model (a :class:`Model`, what
+        :func:`identify` gave, or a model file ``.json``), or a simulator's predictions on the records of ``b``, as for :meth:`Rig.with_y_sim`.
+    b
+        The records of the machine, or a file to read them from.
+    threads, progress
+        As in :func:`identify`.
+
+    Raises
+    ------
+    SwitchbackError
+        In the words of ``switchback gap``.
+    """
+    machine = rig_of(b)
+    options = texts(threads=threads)
+    model, against = None, None
+    if isinstance(a, Rig):
+        against = a
+    elif isinstance(a, (str, os.PathLike)):
+        if str(a).endswith(".json"):
+            model = model_of(a)
+        else:
+            against = Rig.read(a)
+    elif isinstance(a, Model) or hasattr(a, "model"):
+        model = model_of(a)
+    else:
+        machine = machine.with_y_sim(a)
+    with shown(progress) as heard:
+        others = None if against is None else records_of(against)
+        return Diagnosis(_native.diagnose(records_of(machine), options, model, others, heard)).differences
 
 
 def shares(prior: Optional[Mapping[str, float]]) -> Optional[str]:
