@@ -2,7 +2,7 @@
 
 /// The verdicts of parts of the records beside that of all.
 ///
-/// A sample takes three quarters of the blocks of every record, without replacement, so that no input is repeated and no residual parted from the input that it
+/// A sample takes three quarters of every record, consecutive ones from a random start, so that no input is repeated and no residual parted from the input that it
 /// belongs to: D. N. Politis, J. P. Romano, M. Wolf, *Subsampling*, Springer 1999. Records of designed experiments stay whole.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Stability {

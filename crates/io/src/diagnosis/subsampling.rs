@@ -4,8 +4,7 @@ use super::stability::{PartVerdict, Stability};
 use super::{Report, Subject, examine};
 use crate::progress::Stages;
 use crate::rig::is_rest_of;
-use rand::SeedableRng;
-use rand::seq::index::sample;
+use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use rayon::prelude::*;
 use std::ops::Range;
@@ -13,11 +12,10 @@ use switchback_diagnose::{Diagnosis, Settings, Status};
 use switchback_model::Record;
 use switchback_model::rig::{Rig, RigRecord, Role, Usage};
 
-/// Blocks of a record, and of these in a sample.
-const BLOCKS: usize = 8;
-const TAKEN: usize = 6;
-/// Samples of a block, at least.
-const LEAST_BLOCK: usize = 100;
+/// Share of a record in a sample.
+const TAKEN: f64 = 0.75;
+/// Samples of a record of which a share is taken, at least.
+const LEAST_LENGTH: usize = 800;
 /// Share of a recording that is held out where all of it is fitted, or none.
 const HELD_OUT: f64 = 1.0 / 3.0;
 
@@ -34,7 +32,7 @@ pub fn stability(
         0 | 1 => Vec::new(),
         _ => recordings.into_iter().map(|(name, records)| (name, divided(records))).collect(),
     };
-    let can_be_cut = rig.records.iter().any(|record| blocks(record).is_some());
+    let can_be_cut = rig.records.iter().any(can_be_cut);
     let sampled: Vec<(String, Vec<RigRecord>)> = (0..if can_be_cut { samples } else { 0 })
         .map(|number| (format!("sample {}", number + 1), sampled(rig, number as u64)))
         .collect();
@@ -118,32 +116,24 @@ fn part(record: &RigRecord, range: Range<usize>) -> RigRecord {
     }
 }
 
-/// The length of the blocks of a record; none where it is designed, or too short.
-fn blocks(record: &RigRecord) -> Option<usize> {
-    let length = record.record.len() / BLOCKS;
-    (record.role == Role::Free && length >= LEAST_BLOCK).then_some(length)
+/// Whether a share of a record can be taken: one that is designed, or short, stays whole.
+fn can_be_cut(record: &RigRecord) -> bool {
+    record.role == Role::Free && record.record.len() >= LEAST_LENGTH
 }
 
-/// All records with three quarters of their blocks; blocks that follow each other stay in one piece.
+/// All records with three quarters of each, in one piece.
 fn sampled(rig: &Rig, seed: u64) -> Vec<RigRecord> {
     let rng = &mut ChaCha8Rng::seed_from_u64(seed);
-    let mut all = Vec::new();
-    for record in &rig.records {
-        let Some(length) = blocks(record) else {
-            all.push(record.clone());
-            continue;
-        };
-        let mut taken = sample(rng, BLOCKS, TAKEN).into_vec();
-        taken.sort_unstable();
-        let pieces = taken.chunk_by(|a, b| a + 1 == *b);
-        for (number, piece) in pieces.enumerate() {
-            let (first, last) = (piece[0], piece[piece.len() - 1]);
-            let end = if last + 1 == BLOCKS { record.record.len() } else { (last + 1) * length };
-            let name = format!("{}-part-{}", record.name, number + 1);
-            all.push(RigRecord { name, ..part(record, first * length..end) });
+    let window = |record: &RigRecord| {
+        if !can_be_cut(record) {
+            return record.clone();
         }
-    }
-    all
+        let count = record.record.len();
+        let length = (TAKEN * count as f64) as usize;
+        let from = rng.random_range(0..=count - length);
+        part(record, from..from + length)
+    };
+    rig.records.iter().map(window).collect()
 }
 
 #[cfg(test)]
@@ -170,22 +160,19 @@ mod tests {
     }
 
     #[test]
-    fn a_sample_has_three_quarters_of_every_long_record_and_repeats_nothing() {
+    fn a_sample_has_three_quarters_of_every_long_record_in_one_piece() {
         let rig = rig(&[("a", Usage::Fit, 1607), ("b", Usage::Holdout, 700)]);
+        let mut starts = Vec::new();
         for seed in 0..50 {
             let records = sampled(&rig, seed);
-            let mut of_a: Vec<f64> = Vec::new();
-            for record in records.iter().filter(|record| record.usage == Usage::Fit) {
-                assert_eq!(record.predicted.as_deref(), Some(record.record.v()));
-                assert!(record.record.v().windows(2).all(|v| v[1] == v[0] + 1.0));
-                of_a.extend(record.record.v());
-            }
-            assert!(of_a.len() == 6 * 200 || of_a.len() == 6 * 200 + 7);
-            assert!(of_a.windows(2).all(|v| v[0] < v[1]));
+            let [a, b] = &records[..] else { panic!("two records") };
+            assert_eq!((a.record.len(), a.predicted.as_deref()), (1205, Some(a.record.v())));
+            assert!(a.record.v().windows(2).all(|v| v[1] == v[0] + 1.0));
+            starts.push(a.record.v()[0]);
             // Too short to be cut.
-            assert_eq!(records.iter().filter(|r| r.usage == Usage::Holdout).count(), 1);
+            assert_eq!(*b, rig.records[1]);
         }
-        assert_ne!(sampled(&rig, 1), sampled(&rig, 2));
+        assert!(starts.iter().any(|s| *s < 100.0) && starts.iter().any(|s| *s > 300.0), "{starts:?}");
         assert_eq!(sampled(&rig, 1), sampled(&rig, 1));
     }
 

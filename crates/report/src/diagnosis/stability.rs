@@ -10,7 +10,7 @@ pub(crate) struct Stability {
     /// Share of all parts, samples and recordings, with the verdict of all records; null where there is none.
     #[schemars(range(min = 0, max = 1))]
     pub share: Option<f64>,
-    /// Samples of three quarters of the blocks of every record.
+    /// Samples of three quarters of every record, in one piece.
     pub samples: Vec<PartVerdict>,
     /// Each recording alone; empty where there is only one.
     pub recordings: Vec<PartVerdict>,
