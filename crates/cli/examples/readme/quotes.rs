@@ -23,8 +23,6 @@ pub(crate) fn sections() -> miette::Result<Quotes> {
     let [measures, rules] = blind.splitn(2, "\n\n").collect::<Vec<_>>()[..] else {
         return Err(miette!("reports/blind-sample/summary.txt holds no two tables"));
     };
-    let pairs = text("reports/differences/pairs.txt")?;
-    let table = pairs.find("differs ").map_or("", |at| &pairs[at..]);
     let quotes = [
         ("inferred", inferred("scenarios/data/bench.csv")?),
         ("bench", verdict("reports/bench/verdict.txt")?),
@@ -39,11 +37,18 @@ pub(crate) fn sections() -> miette::Result<Quotes> {
         ("gap-mr-damper", verdict("reports/measured-rigs/gap-mr-damper.txt")?),
         ("blind-short", block(&rows(measures, &BLIND_SHORT)?)),
         ("blind", block(&format!("{measures}\n\n{}", rules.trim_end()))),
-        ("differences", block(table)),
+        ("differences", differences("pairs")?),
+        ("joints", differences("joints")?),
         ("speed-short", ratios()?),
         ("speed", without_title(&text("reports/speed/table.md")?).to_owned()),
     ];
     Ok(quotes.map(|(name, text)| (name.to_owned(), text)).into())
+}
+
+/// The table of simulators beside machines, without the list of single ones.
+fn differences(name: &str) -> miette::Result<String> {
+    let all = text(&format!("reports/differences/{name}.txt"))?;
+    Ok(block(all.find("differs ").map_or("", |at| &all[at..])))
 }
 
 /// The rows of the blind examination that the README shows.
