@@ -22,7 +22,7 @@ def v() -> np.ndarray:
     return drive(1500)
 
 
-def test_a_simulator_of_a_lower_gain_is_told_by_its_gain(v: np.ndarray) -> None:
+def test_a_lower_gain_of_a_simulator_is_the_one_difference(v: np.ndarray) -> None:
     y = machine(v, noise=0.02)
     rows = sb.compare(0.8 * machine(v), rig_of(y, v, "machine"))
     assert rows[0].what == "gain" and rows[0].differs and not any(row.differs for row in rows[1:])

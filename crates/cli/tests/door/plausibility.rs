@@ -25,7 +25,7 @@ fn strokes_that_are_all_alike_are_told() {
 }
 
 #[test]
-fn outputs_outside_a_model_s_band_are_told() {
+fn outputs_outside_a_model_s_band_are_reported() {
     let good = table("time,travel,force", |_, t, v, y| format!("{t},{v},{y}"));
     let other = table("time,travel,force", |_, t, v, y| format!("{t},{v},{}", y + 100.0));
     let bench = Bench::new().with("a.csv", good).with("b.csv", other);

@@ -226,7 +226,7 @@ impl<W: Workers> Search<'_, W> {
         let mut best = best_of(&LEADS);
         let mut step = best.1 / 4;
         while step > 0 {
-            let around = best_of(&[best.1.saturating_sub(step), best.1 + step]);
+            let around = best_of(&[best.1.saturating_sub(step), best.1.saturating_add(step)]);
             if around.0 < best.0 { best = around } else { step /= 2 }
         }
         if best.0 > LEAST_GAIN * plain.1 { plain } else { self.fit(&leading(best.1), Effort::FINAL) }

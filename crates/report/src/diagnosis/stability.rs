@@ -92,7 +92,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn who_agrees_and_what_others_say_is_told() {
+    fn parts_that_agree_are_counted_and_other_verdicts_quoted() {
         let part = |part: &str, verdict: &str, agrees| diagnosis::PartVerdict {
             part: part.to_owned(),
             verdict: verdict.to_owned(),
