@@ -26,6 +26,10 @@ const FITTED: usize = 4;
 const ROUNDS: usize = 4;
 /// Order of a system whose effects are not known yet.
 const MIDDLING: usize = 2;
+/// Distance between knots, of that of the identified borders, below which no structure is searched.
+const FINEST: f64 = 0.25;
+/// Candidates that are fitted with each timing of reversals.
+const RETIMED: usize = 3;
 /// Halvings of the distance between knots once the structure is found, at most.
 const MOST_HALVINGS: usize = 2;
 
@@ -42,6 +46,8 @@ struct Search<'a, W> {
     criterion: Criterion,
     scale: Scale,
     samples: usize,
+    /// Distance between knots below which no structure is searched.
+    finest: f64,
 }
 
 /// A system that runs as these records do, effects among it where the borders and a linear part are not enough.
@@ -68,6 +74,7 @@ pub(super) fn surrogate(
         criterion,
         scale: Scale::of(&system.linear, system.rule, &pairs),
         samples,
+        finest: FINEST * knots_apart(&system),
     };
     // Effects may pass for dynamics, as a mass does for a pair of poles: the search begins once without any.
     let (immediate, _) = LinearPart::new(&[], &[1.0], 0).expect("a gain of one");
@@ -131,9 +138,8 @@ impl<W: Workers> Search<'_, W> {
 
     /// The same on borders with knots at a share of their mean distance, where one sample at least determines each.
     fn refined(&self, system: &System, share: f64) -> System {
-        let (low, high) = system.borders.range();
-        let apart = (high - low) / (system.borders.count() as f64 / 2.0 - 1.0).max(1.0);
-        let mut refined = System { borders: system.borders.refined(share * apart), ..system.clone() };
+        let borders = system.borders.refined(share * knots_apart(system));
+        let mut refined = System { borders, ..system.clone() };
         loop {
             let mut weights = vec![0.0; refined.borders.count()];
             for stretch in self.stretches {
@@ -191,13 +197,19 @@ impl<W: Workers> Search<'_, W> {
                 break;
             }
             let (now, terms) = (charged(&system), system.terms.len());
-            let tried = self.workers.map(&self.larger(&system), |start| {
+            let judged = |start: &System| {
                 let (with, deviance) = self.fit(start, Effort::SEARCH);
                 let more = charged(&with).saturating_sub(now);
                 // Where borders and poles are enough, no effect stands for their shape: it costs nothing.
                 let is_enough = deviance < small && with.terms.len() == terms;
                 (if is_enough { 0.0 } else { deviance + price(self.samples, more) }, with, deviance)
-            });
+            };
+            let mut tried = self.workers.map(&self.larger(&system), judged);
+            tried.sort_by(|x, y| x.0.total_cmp(&y.0));
+            // Each timing of reversals is tried with the best of them alone.
+            let timings = |(_, system, _): &(f64, System, f64)| system.with_every_timing().skip(1);
+            let retimed: Vec<System> = tried.iter().take(RETIMED).flat_map(timings).collect();
+            tried.extend(self.workers.map(&retimed, judged));
             let Some((worth, best, least)) = tried.into_iter().min_by(|x, y| x.0.total_cmp(&y.0)) else {
                 break;
             };
@@ -247,7 +259,7 @@ impl<W: Workers> Search<'_, W> {
         }
     }
 
-    /// The system with one effect more, with one pole more, or with borders on two or four times as many knots; each with all timings of reversals.
+    /// The system with one effect more, with one pole more, or with borders on two or four times as many knots, but for those finer than a search needs.
     fn larger(&self, system: &System) -> Vec<System> {
         let with = |term| {
             let mut with = system.clone();
@@ -256,9 +268,9 @@ impl<W: Workers> Search<'_, W> {
         };
         let effects = self.candidates(system).into_iter().map(with);
         let linear = system.linear.larger().into_iter().map(|linear| System { linear, ..system.clone() });
-        let refined = [0.5, 0.25].map(|share| self.refined(system, share));
-        let larger = effects.chain(linear).chain(refined).chain([system.clone()]);
-        larger.flat_map(|system| system.with_every_timing()).collect()
+        let coarse = [0.5, 0.25].into_iter().filter(|share| share * knots_apart(system) >= self.finest);
+        let refined = coarse.map(|share| self.refined(system, share));
+        effects.chain(linear).chain(refined).chain([system.clone()]).collect()
     }
 
     /// The laws whose change of the run explains most of the error, beside the coordinates of the system: the best start of each, the best laws first.
@@ -280,6 +292,12 @@ impl<W: Workers> Search<'_, W> {
         scored.sort_by(|x, y| y.0.total_cmp(&x.0));
         scored.into_iter().take(FITTED).map(|(_, term)| term).collect()
     }
+}
+
+/// Mean distance of two knots of a border.
+fn knots_apart(system: &System) -> f64 {
+    let (low, high) = system.borders.range();
+    (high - low) / (system.borders.count() as f64 / 2.0 - 1.0).max(1.0)
 }
 
 /// Numbers of a system that have a price: borders are curves, and their knots only what it takes to draw them.
