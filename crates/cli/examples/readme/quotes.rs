@@ -39,6 +39,8 @@ pub(crate) fn sections() -> miette::Result<Quotes> {
         ("blind", block(&format!("{measures}\n\n{}", rules.trim_end()))),
         ("differences", differences("pairs")?),
         ("joints", differences("joints")?),
+        ("bouc-wen", benchmark("bouc-wen")?),
+        ("cascaded-tanks", benchmark("cascaded-tanks")?),
         ("speed-short", ratios()?),
         ("speed", without_title(&text("reports/speed/table.md")?).to_owned()),
     ];
@@ -49,6 +51,12 @@ pub(crate) fn sections() -> miette::Result<Quotes> {
 fn differences(name: &str) -> miette::Result<String> {
     let all = text(&format!("reports/differences/{name}.txt"))?;
     Ok(block(all.find("differs ").map_or("", |at| &all[at..])))
+}
+
+/// The table of a public benchmark, without the diagnosis below it.
+fn benchmark(name: &str) -> miette::Result<String> {
+    let all = text(&format!("reports/benchmarks/{name}.txt"))?;
+    Ok(block(all.split("\n\ndiagnosis").next().unwrap_or_default()))
 }
 
 /// The rows of the blind examination that the README shows.
