@@ -161,7 +161,7 @@ impl Mutator {
 
 #[test]
 fn scenarios() {
-    fuzz("scenario", targets::scenario::run, 30_000);
+    fuzz("scenario", targets::scenario::run, 10_000);
 }
 
 #[test]
@@ -171,7 +171,7 @@ fn manifests() {
 
 #[test]
 fn csv_files() {
-    fuzz("csv", targets::csv::run, 20_000);
+    fuzz("csv", targets::csv::run, 6000);
 }
 
 #[test]

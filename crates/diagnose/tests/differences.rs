@@ -121,7 +121,7 @@ fn only(found: &Differences, what: &str, difference: f64) {
 
 #[test]
 fn a_simulator_that_is_right_differs_in_nothing() {
-    for seed in 1..6 {
+    for seed in 1..4 {
         let found = beside(SOUND, SOUND, seed);
         assert!(off(&found).is_empty(), "{seed} {:#?}", off(&found));
         let play = found.rows.iter().find(|row| row.what == "play").expect("both have a play");
