@@ -4,7 +4,7 @@ use super::reversals::{fit_across_reversals, moves_reversals};
 use super::surrogate::{gains, scores, starts};
 use crate::workers::Workers;
 use switchback_identify::record::{Criterion, Effort, Sensitivities, Stretch, fit};
-use switchback_model::system::{Quantity, Scale, System, Term, price};
+use switchback_model::system::{LAWS, Quantity, Scale, System, Term, price};
 
 /// One difference between two systems.
 #[derive(Debug, Clone, PartialEq)]
@@ -160,7 +160,7 @@ impl<W: Workers> Context<'_, W> {
         for (gain, quantity) in gains(&local, taken.len()).into_iter().zip(&open) {
             tries.push((gain, Difference::Quantity(*quantity, quantity.value(&system))));
         }
-        let terms = if with_effects { starts(self.scale, &system.terms) } else { Vec::new() };
+        let terms = if with_effects { starts(LAWS, self.scale, &system.terms) } else { Vec::new() };
         let scores = scores(&system, &taken, &terms, &self.stretches, context);
         tries.extend(scores.into_iter().zip(terms.into_iter().map(Difference::Effect)));
         tries.sort_by(|x, y| y.0.total_cmp(&x.0));

@@ -12,12 +12,13 @@ use switchback_identify::free::FreeError;
 use switchback_identify::record::{Criterion, Effort, Sensitivities, Stretch, fit};
 use switchback_model::record::Record;
 use switchback_model::reversal::{ReversalRule, Timing};
-use switchback_model::system::{LAWS, LinearPart, Quantity, Scale, System, Term, price};
+use switchback_model::system::{LAWS, Law, LinearPart, Quantity, Scale, System, Term, every_law, price};
 
 /// Square of a misfit over that of the machine's noise that matters to no difference: the carrier has it on both sides.
 pub(super) const SMALL_MISFIT: f64 = 0.02;
-/// Most effects that a surrogate may have.
+/// Most effects that a surrogate may have, and most steps by which it grows.
 const MOST_EFFECTS: usize = 3;
+const MOST_STEPS: usize = 5;
 /// Share of the misfit that must go for more detail to be worth having.
 const LEAST_GAIN: f64 = 0.8;
 /// Candidates that are fitted, of those looked at.
@@ -28,8 +29,8 @@ const ROUNDS: usize = 4;
 const MIDDLING: usize = 2;
 /// Distance between knots, of that of the identified borders, below which no structure is searched.
 const FINEST: f64 = 0.25;
-/// Candidates that are fitted with each timing of reversals.
-const RETIMED: usize = 3;
+/// Candidates that are fitted in their variants, too.
+const VARIED: usize = 2;
 /// Halvings of the distance between knots once the structure is found, at most.
 const MOST_HALVINGS: usize = 2;
 
@@ -74,7 +75,7 @@ pub(super) fn surrogate(
         criterion,
         scale: Scale::of(&system.linear, system.rule, &pairs),
         samples,
-        finest: FINEST * knots_apart(&system),
+        finest: FINEST * system.borders.apart(),
     };
     // Effects may pass for dynamics, as a mass does for a pair of poles: the search begins once without any.
     let (immediate, _) = LinearPart::new(&[], &[1.0], 0).expect("a gain of one");
@@ -85,7 +86,7 @@ pub(super) fn surrogate(
     // Where one is as good as the source, the next is not let grow larger.
     let mut best: Option<(System, f64)> = None;
     for start in behind.into_iter().chain([system, without_dynamics]) {
-        let most = best.as_ref().filter(|best| best.1 < search.small()).map(|best| charged(&best.0));
+        let most = best.as_ref().filter(|best| best.1 < search.small()).map(|best| best.0.priced());
         let grown = search.grown(&start, most);
         best = best.into_iter().chain([grown]).min_by(|x, y| search.worth(x).total_cmp(&search.worth(y)));
     }
@@ -138,7 +139,7 @@ impl<W: Workers> Search<'_, W> {
 
     /// The same on borders with knots at a share of their mean distance, where one sample at least determines each.
     fn refined(&self, system: &System, share: f64) -> System {
-        let borders = system.borders.refined(share * knots_apart(system));
+        let borders = system.borders.refined(share * system.borders.apart());
         let mut refined = System { borders, ..system.clone() };
         loop {
             let mut weights = vec![0.0; refined.borders.count()];
@@ -156,7 +157,7 @@ impl<W: Workers> Search<'_, W> {
     /// Deviance and price of all its numbers.
     fn worth(&self, (system, deviance): &(System, f64)) -> f64 {
         // A misfit below the one that matters is none.
-        deviance.max(self.small()) + price(self.samples, charged(system))
+        deviance.max(self.small()) + price(self.samples, system.priced())
     }
 
     /// The system identified behind a law that moves reversals, and that law fitted with it; none where no start of one gains on the deviance without any.
@@ -164,7 +165,7 @@ impl<W: Workers> Search<'_, W> {
         if without < self.small() {
             return None;
         }
-        let mut moves = starts(&self.scale, &[]);
+        let mut moves = starts(LAWS, &self.scale, &[]);
         moves.retain(|term| term.law.moves_reversals());
         // Of a middling order, until its strength is known.
         let fitted = self.workers.map(&moves, |term| {
@@ -192,24 +193,23 @@ impl<W: Workers> Search<'_, W> {
         let best = fitted.min_by(|x, y| x.1.total_cmp(&y.1)).expect("its own timing");
         let (mut system, mut deviance) = self.with_lead(best);
         let small = self.small();
-        for _ in 0..MOST_EFFECTS {
-            if deviance < small || most.is_some_and(|most| charged(&system) >= most) {
+        for _ in 0..MOST_STEPS {
+            if deviance < small || most.is_some_and(|most| system.priced() >= most) {
                 break;
             }
-            let (now, terms) = (charged(&system), system.terms.len());
+            let (now, terms) = (system.priced(), system.terms.len());
             let judged = |start: &System| {
                 let (with, deviance) = self.fit(start, Effort::SEARCH);
-                let more = charged(&with).saturating_sub(now);
+                let more = with.priced().saturating_sub(now);
                 // Where borders and poles are enough, no effect stands for their shape: it costs nothing.
                 let is_enough = deviance < small && with.terms.len() == terms;
                 (if is_enough { 0.0 } else { deviance + price(self.samples, more) }, with, deviance)
             };
             let mut tried = self.workers.map(&self.larger(&system), judged);
             tried.sort_by(|x, y| x.0.total_cmp(&y.0));
-            // Each timing of reversals is tried with the best of them alone.
-            let timings = |(_, system, _): &(f64, System, f64)| system.with_every_timing().skip(1);
-            let retimed: Vec<System> = tried.iter().take(RETIMED).flat_map(timings).collect();
-            tried.extend(self.workers.map(&retimed, judged));
+            let variants = |(_, system, _): &(f64, System, f64)| system.variants(&self.scale);
+            let varied: Vec<System> = tried.iter().take(VARIED).flat_map(variants).collect();
+            tried.extend(self.workers.map(&varied, judged));
             let Some((worth, best, least)) = tried.into_iter().min_by(|x, y| x.0.total_cmp(&y.0)) else {
                 break;
             };
@@ -247,7 +247,7 @@ impl<W: Workers> Search<'_, W> {
     /// Without the terms and poles that cost more than they explain.
     fn without_the_needless(&self, mut system: System, mut deviance: f64) -> (System, f64) {
         loop {
-            let fewer = self.workers.map(&smaller(&system), |(start, saved)| {
+            let fewer = self.workers.map(&system.smaller(), |(start, saved)| {
                 let (system, deviance) = self.fit(start, Effort::SEARCH);
                 (deviance - price(self.samples, *saved), system, deviance)
             });
@@ -266,9 +266,11 @@ impl<W: Workers> Search<'_, W> {
             with.terms.push(term);
             with
         };
-        let effects = self.candidates(system).into_iter().map(with);
+        let may_grow = system.terms.len() < MOST_EFFECTS;
+        let candidates = if may_grow { self.candidates(system) } else { Vec::new() };
+        let effects = candidates.into_iter().map(with);
         let linear = system.linear.larger().into_iter().map(|linear| System { linear, ..system.clone() });
-        let coarse = [0.5, 0.25].into_iter().filter(|share| share * knots_apart(system) >= self.finest);
+        let coarse = [0.5, 0.25].into_iter().filter(|share| share * system.borders.apart() >= self.finest);
         let refined = coarse.map(|share| self.refined(system, share));
         effects.chain(linear).chain(refined).chain([system.clone()]).collect()
     }
@@ -276,7 +278,7 @@ impl<W: Workers> Search<'_, W> {
     /// The laws whose change of the run explains most of the error, beside the coordinates of the system: the best start of each, the best laws first.
     fn candidates(&self, system: &System) -> Vec<Term> {
         // A further pole belongs to the linear part.
-        let mut starts = starts(&self.scale, &system.terms);
+        let mut starts = starts(every_law(), &self.scale, &system.terms);
         starts.retain(|term| term.law.effect() != "extra_pole");
         let context = (&self.criterion, &self.scale);
         let scores = scores(system, &Quantity::coordinates(system), &starts, self.stretches, context);
@@ -294,37 +296,17 @@ impl<W: Workers> Search<'_, W> {
     }
 }
 
-/// Mean distance of two knots of a border.
-fn knots_apart(system: &System) -> f64 {
-    let (low, high) = system.borders.range();
-    (high - low) / (system.borders.count() as f64 / 2.0 - 1.0).max(1.0)
-}
-
-/// Numbers of a system that have a price: borders are curves, and their knots only what it takes to draw them.
-fn charged(system: &System) -> usize {
-    let coordinates = Quantity::coordinates(system);
-    coordinates.iter().filter(|q| !matches!(q, Quantity::Knot(_))).count()
-}
-
-/// The system without one term, or with a smaller linear part; and the parameters that this saves.
-fn smaller(system: &System) -> Vec<(System, usize)> {
-    let mut all = Vec::new();
-    for k in 0..system.terms.len() {
-        let mut without = system.clone();
-        let term = without.terms.remove(k);
-        all.push((without, term.values.len()));
-    }
-    for fewer in system.linear.smaller() {
-        let saved = system.linear.coefficients() - fewer.coefficients();
-        all.push((System { linear: fewer, ..system.clone() }, saved));
-    }
-    all
-}
-
 /// Every start of every law of an effect that is not there yet.
-pub(super) fn starts(scale: &Scale, present: &[Term]) -> Vec<Term> {
-    let absent = LAWS.iter().filter(|law| present.iter().all(|t| t.law.effect() != law.effect()));
-    absent.flat_map(|&law| law.starts(scale).into_iter().map(move |values| Term { law, values })).collect()
+pub(super) fn starts(
+    laws: impl IntoIterator<Item = &'static dyn Law>,
+    scale: &Scale,
+    present: &[Term],
+) -> Vec<Term> {
+    let absent = |law: &&'static dyn Law| present.iter().all(|t| t.law.effect() != law.effect());
+    laws.into_iter()
+        .filter(absent)
+        .flat_map(|law| law.starts(scale).into_iter().map(move |values| Term { law, values }))
+        .collect()
 }
 
 /// Eigenvalue of the scaled information below which a direction is none that the records show.

@@ -6,7 +6,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use switchback_model::hysteresis::Branch;
 use switchback_model::reversal::{LEADS_PER_SAMPLE, ReversalRule, Timing};
-use switchback_model::system::{Borders, LAWS, LinearPart, Sensor, Span, System, Term};
+use switchback_model::system::{Borders, LinearPart, Sensor, Span, System, Term, every_law};
 
 /// A machine as it is simulated: borders in output units, a linear part of unit gain, a reading, effects.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -136,10 +136,7 @@ impl From<Machine> for Wire {
                     Timing::ByVelocity { .. } => When::ByVelocity,
                     Timing::AtConfirmation => When::AtConfirmation,
                 },
-                lead: match rule.timing {
-                    Timing::ByVelocity { lead } => f64::from(lead) / LEADS_PER_SAMPLE,
-                    _ => 0.0,
-                },
+                lead: rule.timing.lead(),
             },
             terms: system
                 .terms
@@ -178,14 +175,11 @@ impl TryFrom<Wire> for Machine {
         linear.delay = delay;
         let numbers = [gain, zero, reversal.threshold, reversal.band, reversal.lead, noise_sd];
         if !numbers.iter().all(is_finite) || numbers[2..].iter().any(|x| *x < 0.0) {
-            return Err(
-                "`gain`, `zero`, `reversal` and `noise_sd` must be finite, the last two not negative"
-                    .to_owned(),
-            );
+            return Err("`gain`, `zero`, `reversal` and `noise_sd` must be finite, `reversal` and `noise_sd` not negative".to_owned());
         }
         let term = |wire: WireTerm| -> Result<Term, String> {
-            let known = LAWS.iter().find(|law| law.effect() == wire.effect && law.name() == wire.law);
-            let law = *known.ok_or_else(|| format!("`{}` has no law `{}`", wire.effect, wire.law))?;
+            let known = every_law().find(|law| law.effect() == wire.effect && law.name() == wire.law);
+            let law = known.ok_or_else(|| format!("`{}` has no law `{}`", wire.effect, wire.law))?;
             let fits = wire.values.len() == law.parameters().len() && wire.values.iter().all(is_finite);
             let expected = law.parameters().len();
             fits.then_some(Term { law, values: wire.values })
@@ -213,7 +207,7 @@ mod tests {
     fn machine() -> Machine {
         let borders = Borders::new(&[(-1.0, -1.0), (1.0, 0.5)], &[(-1.0, 0.0), (1.0, 1.5)]).unwrap();
         let (linear, _) = LinearPart::new(&[-0.6], &[0.3, 0.1], 1).unwrap();
-        let terms = LAWS.iter().take(4).map(|&law| Term { law, values: vec![0.1; law.parameters().len()] });
+        let terms = every_law().take(4).map(|law| Term { law, values: vec![0.1; law.parameters().len()] });
         let sensor = Sensor { gain: 1.1, zero: -0.2 };
         let system = System { borders, linear, sensor, terms: terms.collect(), rule: ReversalRule::EXACT };
         Machine::new(system, 0.01)

@@ -27,6 +27,16 @@ pub enum Timing {
     AtConfirmation,
 }
 
+impl Timing {
+    /// `τ`, samples.
+    pub fn lead(self) -> f64 {
+        match self {
+            Self::ByVelocity { lead } => f64::from(lead) / LEADS_PER_SAMPLE,
+            _ => 0.0,
+        }
+    }
+}
+
 /// What counts as a reversal, and when it takes effect.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ReversalRule {
@@ -125,8 +135,8 @@ impl Branches {
     ///
     pub fn of(v: &[f64], rule: ReversalRule) -> Option<Self> {
         let ReversalRule { threshold, band, timing } = rule;
-        if let Timing::ByVelocity { lead: lead @ 1.. } = timing {
-            let ahead = |(v, slope): (&f64, f64)| v + f64::from(lead) / LEADS_PER_SAMPLE * slope;
+        if let Timing::ByVelocity { lead: 1.. } = timing {
+            let ahead = |(v, slope): (&f64, f64)| v + timing.lead() * slope;
             let ahead: Vec<f64> = v.iter().zip(derivative(v)).map(ahead).collect();
             return Self::of(&ahead, ReversalRule { timing: Timing::ByVelocity { lead: 0 }, ..rule });
         }

@@ -123,6 +123,12 @@ impl Borders {
         self.curves.iter().map(|c| c.knots.len()).sum()
     }
 
+    /// Mean distance of two knots of a border.
+    pub fn apart(&self) -> f64 {
+        let (low, high) = self.range();
+        (high - low) / (self.count() as f64 / 2.0 - 1.0).max(1.0)
+    }
+
     /// The value at a knot, numbered through from the descending border's first.
     pub fn value_mut(&mut self, knot: usize) -> &mut f64 {
         let first = self.curves[0].values.len();

@@ -15,6 +15,8 @@ pub struct Motion {
     pub velocity: Vec<f64>,
     /// Second derivative, input units a sample squared.
     pub acceleration: Vec<f64>,
+    /// Samples by which the direction leads the velocity.
+    pub lead: f64,
     /// Size of the last move, kept at rest.
     pub speed: Vec<f64>,
     /// Size of the move into this sample.
@@ -45,7 +47,18 @@ impl Motion {
             since[t] = if direction[t] * direction[t - 1] < 0.0 { 0.0 } else { since[t - 1] + 1.0 };
         }
         let (velocity, acceleration) = (derivative(position), second_derivative(position));
-        Self { position: position.to_vec(), direction, velocity, acceleration, speed, moved, since, rest }
+        let position = position.to_vec();
+        Self {
+            position,
+            direction,
+            velocity,
+            acceleration,
+            lead: rule.timing.lead(),
+            speed,
+            moved,
+            since,
+            rest,
+        }
     }
 }
 

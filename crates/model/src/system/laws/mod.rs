@@ -10,6 +10,7 @@ mod inertia;
 mod position_ripple;
 mod rate_dependence;
 mod record_offset;
+mod regularised_friction;
 mod resonance;
 mod sensor_drift;
 mod sensor_nonlinearity;
@@ -19,7 +20,7 @@ mod stribeck;
 
 use super::law::Law;
 
-/// Every law, those of one effect beside each other.
+/// The laws of machines, those of one effect beside each other.
 pub const LAWS: [&dyn Law; 23] = [
     &backlash::Play,
     &gradual_transition::Relaxing,
@@ -46,9 +47,18 @@ pub const LAWS: [&dyn Law; 23] = [
     &sensor_saturation::Below,
 ];
 
+/// Laws that stand for a numerical remedy in simulators: nothing looks for them in a machine.
+pub const NUMERICAL: [&dyn Law; 3] =
+    [&regularised_friction::Clamped, &regularised_friction::Hyperbolic, &regularised_friction::Arctangent];
+
+/// Laws of machines and of simulators.
+pub fn every_law() -> impl Iterator<Item = &'static dyn Law> {
+    LAWS.into_iter().chain(NUMERICAL)
+}
+
 #[cfg(test)]
 mod tests {
-    use super::LAWS;
+    use super::every_law;
     use crate::reversal::ReversalRule;
     use crate::system::{Borders, LinearPart, Scale, Sensor, Span, System, Term};
 
@@ -70,7 +80,7 @@ mod tests {
         let span = Span { record: 1, before: 300, total: 1500 };
         let bare = system.simulate(&v, span);
         let scale = Scale { records: 2, ..Scale::of(&system.linear, system.rule, &[(&v, &bare)]) };
-        for law in LAWS {
+        for law in every_law() {
             let mut noticed = false;
             for values in law.starts(&scale) {
                 assert_eq!(values.len(), law.parameters().len(), "{law:?}");
