@@ -113,7 +113,7 @@ pub(super) fn rows<W: Workers>(
     let own_values = own_values(&source.system, &source.records, context.scale, &own);
     let in_source = |quantity: Quantity| {
         let at = own.iter().position(|q| *q == quantity);
-        at.map_or((in_base(context.base, quantity), 0.0), |at| own_values[at])
+        at.map_or((quantity.value_where_known(context.base), 0.0), |at| own_values[at])
     };
     let scale = unit_factor(aligned.sensor.gain).unwrap_or(1.0);
     let mut rows: Vec<Row> = Vec::new();
@@ -144,20 +144,6 @@ pub(super) fn rows<W: Workers>(
         _ => y.differs.cmp(&x.differs),
     });
     rows
-}
-
-/// The value of a quantity in the base; zero where it is the strength of an effect that this lacks, and no number for a shape.
-fn in_base(base: &System, quantity: Quantity) -> f64 {
-    match quantity {
-        Quantity::Value(term, index) if term >= base.terms.len() => {
-            if index == 0 {
-                0.0
-            } else {
-                f64::NAN
-            }
-        }
-        _ => quantity.value(base),
-    }
 }
 
 /// The difference that a quantity belongs to.

@@ -17,8 +17,8 @@ use switchback_model::system::{LAWS, Law, LinearPart, Quantity, Scale, System, T
 /// Square of a misfit over that of the machine's noise that matters to no difference: the carrier has it on both sides.
 pub(super) const SMALL_MISFIT: f64 = 0.02;
 /// Most effects that a surrogate may have, and most steps by which it grows.
-const MOST_EFFECTS: usize = 3;
-const MOST_STEPS: usize = 5;
+const MOST_EFFECTS: usize = 4;
+const MOST_STEPS: usize = 6;
 /// Share of the misfit that must go for more detail to be worth having.
 const LEAST_GAIN: f64 = 0.8;
 /// Candidates that are fitted, of those looked at.
@@ -261,21 +261,16 @@ impl<W: Workers> Search<'_, W> {
 
     /// The system with one effect more, with one pole more, or with borders on two or four times as many knots, but for those finer than a search needs.
     fn larger(&self, system: &System) -> Vec<System> {
-        let with = |term| {
-            let mut with = system.clone();
-            with.terms.push(term);
-            with
-        };
         let may_grow = system.terms.len() < MOST_EFFECTS;
         let candidates = if may_grow { self.candidates(system) } else { Vec::new() };
-        let effects = candidates.into_iter().map(with);
+        let effects = candidates.into_iter().map(|term| system.and(term));
         let linear = system.linear.larger().into_iter().map(|linear| System { linear, ..system.clone() });
         let coarse = [0.5, 0.25].into_iter().filter(|share| share * system.borders.apart() >= self.finest);
         let refined = coarse.map(|share| self.refined(system, share));
         effects.chain(linear).chain(refined).chain([system.clone()]).collect()
     }
 
-    /// The laws whose change of the run explains most of the error, beside the coordinates of the system: the best start of each, the best laws first.
+    /// The effects whose change of the run explains most of the error, beside the coordinates of the system: the best start and law of each effect, the best effects first.
     fn candidates(&self, system: &System) -> Vec<Term> {
         // A further pole belongs to the linear part.
         let mut starts = starts(every_law(), &self.scale, &system.terms);
@@ -284,8 +279,7 @@ impl<W: Workers> Search<'_, W> {
         let scores = scores(system, &Quantity::coordinates(system), &starts, self.stretches, context);
         let mut scored: Vec<(f64, Term)> = Vec::new();
         for (term, score) in starts.into_iter().zip(scores) {
-            let name = |t: &Term| (t.law.effect(), t.law.name());
-            match scored.iter_mut().find(|(_, t)| name(t) == name(&term)) {
+            match scored.iter_mut().find(|(_, t)| t.law.effect() == term.law.effect()) {
                 Some(best) if best.0 < score => *best = (score, term),
                 Some(_) => {}
                 None => scored.push((score, term)),
@@ -352,7 +346,7 @@ pub(super) fn own_values(
             // A move of a coefficient may make a pair of two equal poles, which have other quantities; the other way it makes none.
             let tried = [step, -step].into_iter().find_map(|step| {
                 let moved = c.set(system, c.value(system) + step);
-                has(&moved, *quantity).then(|| (quantity.value(&moved) - value) / step)
+                quantity.is_of(&moved).then(|| (quantity.value(&moved) - value) / step)
             });
             tried.unwrap_or(0.0)
         };
@@ -364,13 +358,6 @@ pub(super) fn own_values(
     quantities.iter().map(of).collect()
 }
 
-/// Whether a system has a quantity.
-fn has(system: &System, quantity: Quantity) -> bool {
-    let is_of_poles =
-        matches!(quantity, Quantity::TimeConstant(_) | Quantity::Frequency(_) | Quantity::Damping(_));
-    !is_of_poles || Quantity::all(system).contains(&quantity)
-}
-
 /// What each term would gain in `Σρ` once its change of the run, by finite difference, is scaled freely, beside the given quantities.
 pub(super) fn scores(
     system: &System,
@@ -379,12 +366,7 @@ pub(super) fn scores(
     stretches: &[Stretch],
     (criterion, scale): (&Criterion, &Scale),
 ) -> Vec<f64> {
-    let with = |term: &Term| {
-        let mut with = system.clone();
-        with.terms.push(term.clone());
-        with
-    };
-    let added: Vec<System> = terms.iter().map(with).collect();
+    let added: Vec<System> = terms.iter().map(|term| system.and(term.clone())).collect();
     let moved: Vec<(System, f64)> = base
         .iter()
         .map(|q| {

@@ -7,6 +7,14 @@ use super::scale::Scale;
 use super::simulate::System;
 
 impl System {
+    /// The system with one term more.
+    #[must_use]
+    pub fn and(&self, term: Term) -> Self {
+        let mut with = self.clone();
+        with.terms.push(term);
+        with
+    }
+
     /// Numbers that have a price: borders are curves, and their knots only what it takes to draw them.
     pub fn priced(&self) -> usize {
         let coordinates = Quantity::coordinates(self);
@@ -43,5 +51,22 @@ impl System {
             }));
         }
         all
+    }
+}
+
+impl Quantity {
+    /// Whether a system has it: poles that are real have no frequency.
+    pub fn is_of(self, system: &System) -> bool {
+        let is_of_poles = matches!(self, Self::TimeConstant(_) | Self::Frequency(_) | Self::Damping(_));
+        !is_of_poles || Self::all(system).contains(&self)
+    }
+
+    /// Its value in a system that may lack the term: zero for a strength, and no number for a shape.
+    pub fn value_where_known(self, system: &System) -> f64 {
+        match self {
+            Self::Value(term, 0) if term >= system.terms.len() => 0.0,
+            Self::Value(term, _) if term >= system.terms.len() => f64::NAN,
+            _ => self.value(system),
+        }
     }
 }
