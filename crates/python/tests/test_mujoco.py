@@ -64,15 +64,25 @@ def joint(seed: int) -> tuple[sb.Rig, dict[str, tuple[float, float]]]:
     return sb.Rig.from_frame(frame, name="joint").with_y_sim(y_sim), wanted
 
 
-# Friction is a soft constraint in MuJoCo, less than `frictionloss` near rest; here it switches at once.
+# Friction is a soft constraint in MuJoCo, whose force follows the velocity to come; here it follows the velocity and a share of the acceleration.
 SOFT = 0.1
+# MuJoCo derives the speed at which friction slips from both: it differs where one of them does.
+SLIPS_BY = {"armature", "frictionloss"}
+
+
+def differing(rig: sb.Rig, wanted: dict[str, tuple[float, float]]) -> dict[str, Any]:
+    """Rows that differ, by attribute, without what follows from another attribute that is off."""
+    rows: list[Any] = [row for row in sb.diagnose(rig).differences if row.differs]
+    found = {row.attribute or row.what: row for row in rows}
+    if SLIPS_BY & set(wanted):
+        found.pop("slip_speed", None)
+    return found
 
 
 @pytest.mark.parametrize("seed", range(len(OFF)))
 def test_the_attributes_that_are_off_are_found(seed: int) -> None:
     rig, wanted = joint(seed)
-    rows: list[Any] = [row for row in sb.diagnose(rig).differences if row.differs]
-    found = {row.attribute or row.what: row for row in rows}
+    found = differing(rig, wanted)
     assert set(found) == set(wanted)
     for name, (simulator, real) in wanted.items():
         row = found[name]
@@ -83,7 +93,7 @@ if __name__ == "__main__":
     right = inside = values = 0
     for number in range(20):
         rig, wanted = joint(number)
-        found = {row.attribute or row.what: row for row in sb.diagnose(rig).differences if row.differs}
+        found = differing(rig, wanted)
         right += set(found) == set(wanted)
         for name in set(found) & set(wanted):
             row, (simulator, real) = found[name], wanted[name]
