@@ -1,4 +1,4 @@
-//! What the program finds in the record for estimation, judged on the record for tests.
+//! Models that the program identifies from the record for estimation, judged on the record for tests.
 
 use std::fmt::Write as _;
 use switchback_diagnose::Settings;

@@ -1,5 +1,6 @@
 //! Periodic signals by their lines.
 
+use crate::estimation::rms;
 use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
 use realfft::RealFftPlanner;
@@ -27,7 +28,7 @@ impl Period {
     }
 
     pub(crate) fn rms(&self) -> f64 {
-        (self.0.iter().map(|x| x * x).sum::<f64>() / self.0.len() as f64).sqrt()
+        rms(self.0.iter().copied())
     }
 
     /// Every `step`th sample.

@@ -26,7 +26,7 @@ mod structure;
 pub use borders::Borders;
 pub use delayed::delayed;
 pub use law::{Law, Parameter, Term, Unit};
-pub use laws::{LAWS, NUMERICAL, every_law};
+pub use laws::{LAWS, every_law};
 pub use linear_part::LinearPart;
 pub use modes::Mode;
 pub use motion::Motion;

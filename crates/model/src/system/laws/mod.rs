@@ -48,7 +48,7 @@ pub const LAWS: [&dyn Law; 23] = [
 ];
 
 /// Laws that stand for a numerical remedy in simulators: nothing looks for them in a machine.
-pub const NUMERICAL: [&dyn Law; 3] =
+const NUMERICAL: [&dyn Law; 3] =
     [&regularised_friction::Clamped, &regularised_friction::Hyperbolic, &regularised_friction::Arctangent];
 
 /// Laws of machines and of simulators.
