@@ -35,7 +35,6 @@ pub(crate) struct Cli {
 #[derive(Debug, Subcommand)]
 enum Verb {
     Bench(cmd::bench::Args),
-    Calibrate(cmd::calibrate::Args),
     Compare(cmd::compare::Args),
     Completions(cmd::completions::Args),
     Design(cmd::design::Args),
@@ -131,7 +130,6 @@ impl Cli {
     pub(crate) fn run(self) -> CommandResult {
         match self.verb {
             Some(Verb::Bench(args)) => cmd::bench::run(&args),
-            Some(Verb::Calibrate(args)) => cmd::calibrate::run(&args),
             Some(Verb::Compare(args)) => cmd::compare::run(&args),
             Some(Verb::Completions(args)) => cmd::completions::run(&args, Self::command()),
             Some(Verb::Design(args)) => cmd::design::run(&args),

@@ -3,7 +3,6 @@
 mod bad_data;
 mod bad_rig;
 mod blind;
-mod calibrate;
 mod catalogues;
 mod cluster;
 mod command_line;

@@ -87,7 +87,6 @@ fn silent(status: Status) -> Diagnosis {
             refit: None,
             held_out_error_ratio: None,
         },
-        second_opinion: None,
         classification: None,
         gap: Gap {
             before: nothing,
@@ -112,7 +111,7 @@ fn silent(status: Status) -> Diagnosis {
         residuals_after: ResidualPicture::default(),
         limitations: vec![],
         models: None,
-        evidence: vec![],
+        evidence: None,
     }
 }
 

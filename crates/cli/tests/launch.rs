@@ -132,22 +132,6 @@ fn a_part_reported_twice_that_its_time_is_up_goes_back_into_the_queue() {
 }
 
 #[test]
-fn a_calibration_is_launched_as_a_field_examination_is() {
-    let folder = Folder::with_good_rig();
-    let scenario = concat!(env!("CARGO_MANIFEST_DIR"), "/../../scenarios/calibrate-field.toml");
-    for engine in ["--slurm", "--hq"] {
-        let output =
-            folder.switchback(&["launch", scenario, engine, "--calibrate"]).output().expect("it runs");
-        assert_eq!(output.status.code(), Some(0), "{}", String::from_utf8_lossy(&output.stderr));
-        let script = String::from_utf8(output.stdout).expect("UTF-8");
-        for line in ["calibrate=yes", "name=calibrate-field"] {
-            assert!(script.lines().any(|found| found == line), "`{line}` is missing in: {script}");
-        }
-        assert!(script.contains("--calibrate`"), "its first line shows how to make it again");
-    }
-}
-
-#[test]
 fn what_no_engine_could_run_is_refused_before_it_is_submitted() {
     let folder = Folder::with_good_rig();
     folder.write("study.toml", STUDY);
@@ -157,7 +141,6 @@ fn what_no_engine_could_run_is_refused_before_it_is_submitted() {
         (vec!["study.toml", "--hq", "--partition", "long"], "--partition"),
         (vec!["study.toml", "--slurm", "--time", "2"], "3 minutes at least"),
         (vec!["study.toml", "--slurm", "--time", "an hour"], "hours:minutes:seconds"),
-        (vec!["study.toml", "--hq", "--calibrate"], "no field examination"),
         (vec!["study.toml", "--hq", "--cpus", "0"], "from 1"),
         (vec!["wrong.toml", "--slurm", "--submit"], "replicates"),
         (vec!["rig.toml", "--slurm", "--submit"], "a rig"),

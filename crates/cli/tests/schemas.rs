@@ -263,8 +263,6 @@ fn the_rest() -> Vec<Written> {
         "plan",
         "--json",
     ];
-    let calibrate = ["calibrate", folder.judged_slice(), "--out", "verdict.json", "--quiet"];
-    assert_eq!(folder.switchback(&calibrate).output().expect("it runs").status.code(), Some(0));
     let failed = Finding {
         check: "noise",
         wrong: "it is not white",
@@ -289,7 +287,6 @@ fn the_rest() -> Vec<Written> {
                 "--quiet",
             ],
         ),
-        Written::of("calibrate", &fs::read_to_string(folder.path("verdict.json")).expect("a verdict")),
         Written::of("selftest", &selftest_json(&[failed, refused], 3)),
     ]
 }

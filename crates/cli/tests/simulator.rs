@@ -257,7 +257,10 @@ fn a_zero_or_a_sign_that_differs_between_two_days_comes_first() {
         let unlike = |value: f64, usual: f64| Some(value).filter(|value| *value != usual);
         assert!(is(&page, "offset", unlike(zero, 0.0)) && is(&page, "gain", unlike(sign, 1.0)), "{page:#}");
         assert!(page["in_words"][0].as_str().is_some_and(|sentence| sentence.contains(words)), "{page:#}");
-        assert_eq!(page["verdict"]["effects"], serde_json::json!(["backlash"]), "{page:#}");
+        // A play of these records is all but a gradual transition.
+        let listed =
+            ["effects", "class"].map(|key| page["verdict"][key].as_array().cloned().unwrap_or_default());
+        assert!(listed.concat().contains(&"backlash".into()), "{page:#}");
         assert!(page["gap"]["closure"]["estimate"].as_f64().is_some_and(|share| share > 0.9), "{page:#}");
     }
 }

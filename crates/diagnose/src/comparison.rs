@@ -67,11 +67,6 @@ impl Compared {
     pub(crate) fn of(&self, effect: Effect) -> Option<&EffectEvidence> {
         self.effects.iter().find(|says| says.effect == effect)
     }
-
-    /// Whether an effect makes a held-out record worse, if it has a fit.
-    pub(crate) fn degrades_validation(&self, effect: Effect) -> Option<bool> {
-        self.of(effect).map(|says| says.degrades_validation)
-    }
 }
 
 /// [`EffectEvidence`] as it is written: effect, parameters, drop of the criterion, held-out score, gains (samples ahead, 0 for whole records;

@@ -11,7 +11,6 @@ use crate::fitted_parameter::FittedParameter;
 use crate::horizon::HorizonGain;
 use crate::posterior::Classification;
 use crate::verdict::answer::Verdict;
-use crate::verdict::fitted::SecondOpinion;
 
 /// The gap `G²` (noise-corrected mean square simulation error over the variance of `y`) on one hold-out record.
 #[derive(Debug, Clone, PartialEq)]
@@ -241,10 +240,7 @@ pub struct Diagnosis {
     /// What differs between the machine and the model, simulator or records compared with it; absent where the model was identified from the machine's
     /// own records, or where a source has no gain at rest.
     pub differences: Option<Differences>,
-    /// What a verdict fitted to rigs with known causes says, where nobody designed the records, no order is declared, and no posterior decides.
-    pub second_opinion: Option<SecondOpinion>,
-    /// What the posterior says, where it was asked: nobody designed the records, no order is declared, and it decides or rules show no candidate; or no few
-    /// differences align a source.
+    /// What the posterior says, where it was asked: nobody designed the records and no order is declared, or no few differences align a source.
     pub classification: Option<Classification>,
     /// How large the gap is and how far it closes.
     pub gap: Gap,
@@ -258,8 +254,8 @@ pub struct Diagnosis {
     pub probability_unexplained: f64,
     /// Deviance that causes in general would still gain beside what the verdict rests on, beyond chance.
     pub left: f64,
-    /// What the records say of every effect, one comparison at a time, that of the verdict first.
-    pub evidence: Vec<Compared>,
+    /// What the records say of every effect that was fitted, where any was.
+    pub evidence: Option<Compared>,
     /// Samples fitted, which deviances grow with.
     pub samples: usize,
     /// Passes over all of these samples that the diagnosis took: what it cost.

@@ -18,7 +18,7 @@
 //! | `evidence` | columns of numbers about every effect beside a nominal system without effects |
 //! | `differences` | a machine beside another source: values and effects in which both differ, and the `price` of each |
 //! | `posterior` | trained weights: probabilities of all outcomes from columns of evidence, and what is reported of them |
-//! | `verdict` | calibrated odds of the candidates, and what is reported |
+//! | `verdict` | odds of the candidates of designed experiments, and what is reported |
 //! | `localise`, `closure`, `experiments` | where, how far, and the record that would separate rivals |
 //! | `export` | models that leave: all that their free runs depend on, as plain data, with the covariance of what was estimated |
 //! | `diagnose`, `diagnosis` | the order of all this, and its report |
@@ -58,7 +58,7 @@ mod verdict;
 mod workers;
 
 pub use comparison::{Compared, Comparison};
-pub use diagnose::{classify, diagnose, diagnose_with};
+pub use diagnose::{diagnose, diagnose_with};
 pub use diagnosis::{
     Candidate, Cell, CellInterval, CellUnit, Diagnosis, ExperimentKind, Gap, HoldoutSeries, NextExperiment,
     ResidualPicture, Together,
@@ -73,7 +73,6 @@ pub use nominal_model::NominalModel;
 pub use phase::Phase;
 pub use settings::{Model, Settings};
 pub use verdict::answer::{Status, Verdict};
-pub use verdict::fitted;
 #[cfg(test)]
 pub(crate) use workers::Serial;
 pub use workers::Workers;

@@ -2,8 +2,7 @@
 
 use crate::effect::Effect;
 use crate::nominal_model::NominalModel;
-use crate::posterior::Posterior;
-use crate::verdict::fitted::Shares;
+use crate::posterior::{Posterior, Prior};
 use std::sync::Arc;
 use switchback_model::Record;
 
@@ -22,11 +21,10 @@ pub struct Settings {
     pub max_effects: usize,
     /// A cause is named when its calibrated probability reaches this.
     pub name_at: f64,
-    /// How common causes are where the records were taken; that of the rigs which the fitted verdict or the posterior knows, if not given. Counts
-    /// where one of these is asked: in records that nobody designed.
-    pub prior: Option<Shares>,
-    /// The posterior that decides on records that nobody designed; if not given, rules and the fitted verdict do, and the built-in posterior where these
-    /// show none of the candidates.
+    /// How common causes are where the records were taken; as among the rigs that the posterior was trained on, if not given. Counts where that is
+    /// asked: in records that nobody designed.
+    pub prior: Option<Prior>,
+    /// The posterior that decides on records that nobody designed; the [built-in](Posterior::built_in) one, if not given.
     pub posterior: Option<Arc<Posterior>>,
     /// Probability up to which its likeliest effects are fitted, and most of these.
     pub head: f64,
@@ -51,6 +49,11 @@ impl Settings {
     pub fn asking(mut self, effects: &[Effect]) -> Self {
         self.asked.extend(effects);
         self
+    }
+
+    /// The posterior that decides.
+    pub(crate) fn posterior(&self) -> &Posterior {
+        self.posterior.as_deref().unwrap_or_else(|| Posterior::built_in())
     }
 
     /// Whether an effect is none of those to consider.

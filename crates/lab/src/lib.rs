@@ -7,4 +7,3 @@ pub mod plant;
 pub mod population;
 pub mod power;
 pub mod selftest;
-pub mod training;

@@ -12,7 +12,7 @@ use std::path::PathBuf;
 use std::sync::Arc;
 use std::time::Duration;
 use switchback_diagnose::Effect;
-use switchback_diagnose::fitted::Shares;
+use switchback_diagnose::posterior::Prior;
 use switchback_host::{FmuError, Map, Simulator, predictions};
 use switchback_io::diagnosis::{
     self, Checked, DiagnosisError, Expectation, NoPosterior, Report, Request, Subject, examine_watched,
@@ -60,9 +60,9 @@ pub(crate) struct Args {
     /// How common it is, on machines like yours, that nothing is missing, and that the cause is none of the effects, e.g.
     /// none=0.2,unexplained=0.1: for records that nobody designed.
     #[arg(long, value_name = "SHARES", value_parser = prior)]
-    prior: Option<Shares>,
+    prior: Option<Prior>,
 
-    /// Let this posterior decide on records that nobody designed, as `switchback train` trains it [default: rules and a verdict fitted to diagnoses; where these show none of the candidates, the one built in]
+    /// Let this posterior decide on records that nobody designed, as `switchback train` trains it [default: the one built in]
     #[arg(long, value_name = "POSTERIOR.bin")]
     posterior: Option<PathBuf>,
 

@@ -10,7 +10,7 @@ use std::path::{Path, PathBuf, absolute};
 use switchback_io::input::{program, stream};
 use switchback_io::output::{in_shell, make_folder, path_in_shell, print, run_script};
 use switchback_io::values::whole;
-use switchback_lab::examination::{self, Design, design_of};
+use switchback_lab::examination::{self, design_of};
 use switchback_study::refuse_other_kinds;
 use switchback_study::scenario::Scenario;
 use thiserror::Error;
@@ -45,10 +45,6 @@ pub(crate) struct Args {
     /// Slurm's partition to run in
     #[arg(long, value_name = "NAME", conflicts_with = "hq")]
     partition: Option<String>,
-
-    /// Fit a verdict to the rigs that were judged, as `switchback calibrate` does, and write it beside the report
-    #[arg(long)]
-    calibrate: bool,
 
     /// The report goes into this folder, the parts into DIR-parts beside it [default: reports/NAME]
     #[arg(long, value_name = "DIR")]
@@ -116,11 +112,6 @@ fn check(args: &Args) -> miette::Result<()> {
         Some(_) => drop(examination::read(file)?),
         None => drop(Scenario::read(file)?),
     }
-    if args.calibrate && design != Some(Design::Field) {
-        let reported =
-            "is no field examination, the only kind that a verdict is fitted to; leave out --calibrate";
-        return Err(miette!("{} {reported}", file.display()));
-    }
     if let Some(time) = args.time.as_ref().filter(|time| args.slurm && time.seconds() < LEAST_OF_SLURM) {
         return Err(miette!(
             "--time {time}: Slurm signals a part up to two minutes early; give 3 minutes at least"
@@ -149,7 +140,6 @@ fn launch(args: &Args) -> miette::Result<Launch> {
         threads: args.cpus,
         time: args.time.clone(),
         options: args.partition.iter().map(|partition| format!("--partition={partition}")).collect(),
-        calibrate: args.calibrate,
         work: work.into(),
         out,
     })
@@ -167,6 +157,5 @@ fn command(args: &Args) -> String {
     words.extend((args.cpus > 1).then(|| format!("--cpus {}", args.cpus)));
     words.extend(args.time.iter().map(|time| format!("--time {time}")));
     words.extend(args.partition.iter().map(|partition| format!("--partition {}", in_shell(partition))));
-    words.extend(args.calibrate.then(|| "--calibrate".to_owned()));
     words.join(" ")
 }

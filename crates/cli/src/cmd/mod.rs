@@ -1,7 +1,6 @@
 //! One file a verb: its arguments and what it does.
 
 pub(crate) mod bench;
-pub(crate) mod calibrate;
 pub(crate) mod compare;
 pub(crate) mod completions;
 pub(crate) mod consistency;

@@ -1,6 +1,6 @@
 //! `switchback schemas`
 
-use super::{calibrate, consistency, replay, rig};
+use super::{consistency, replay, rig};
 use crate::failure::{CommandResult, Outcome};
 use schemars::Schema;
 use serde_json::Value;
@@ -32,7 +32,6 @@ fn schemas() -> Vec<Schema> {
     vec![
         bench::schema(),
         bench::history_schema(),
-        calibrate::schema(),
         compare::schema(),
         consistency::part_schema(),
         design::schema(),

@@ -63,8 +63,6 @@ pub(crate) struct Launch {
     pub(crate) time: Option<TimeLimit>,
     /// Options of each job, as the scheduler takes them, besides threads and time.
     pub(crate) options: Vec<String>,
-    /// Whether a verdict is fitted to what was judged, once it is merged.
-    pub(crate) calibrate: bool,
     /// Where the parts go, absolute.
     pub(crate) work: PathBuf,
     /// Where the report goes, absolute.
@@ -94,7 +92,6 @@ impl Launch {
             ("parts", self.parts.to_string()),
             ("work", path(&self.work)),
             ("out", path(&self.out)),
-            ("calibrate", if self.calibrate { "yes" } else { "no" }.to_owned()),
             ("options", format!("({})", options.join(" "))),
         ];
         for (name, value) in of_all.into_iter().chain(self.of_the_engine()) {

@@ -6,7 +6,6 @@ pub(crate) mod faults;
 use assert_cmd::Command;
 use std::fs;
 use std::path::{Path, PathBuf};
-use switchback_io::input::gzip;
 use switchback_study::consistency::Progress;
 use tempfile::TempDir;
 
@@ -87,14 +86,6 @@ impl Folder {
         folder.write("ascendant.csv", &pulses(-1.0, 2));
         folder.write("again.csv", &pulses(1.0, 3));
         folder
-    }
-
-    /// The rigs of `scenarios/field-slice.toml` as they were judged, in a folder of this name.
-    pub(crate) fn judged_slice(&self) -> &'static str {
-        let kept = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/calibrate/cases.jsonl.gz");
-        fs::create_dir_all(self.path("field-slice")).expect("a folder");
-        self.write("field-slice/cases.jsonl", &gzip::read(&kept).expect("judged rigs"));
-        "field-slice"
     }
 
     pub(crate) fn path(&self, name: &str) -> PathBuf {

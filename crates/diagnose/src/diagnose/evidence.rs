@@ -89,12 +89,6 @@ impl Plan {
         Evidence { all, singles, ranked, outdone, significant, best, tests, pair: None }
     }
 
-    /// A fit of each effect that is considered.
-    pub(super) fn singles(&self, workers: &impl Workers) -> Vec<Hypothesis> {
-        workers.begin(Phase::Effects);
-        self.one_of_each(workers, self.attribution(workers).singles())
-    }
-
     fn attribution<'a, W: Workers>(&'a self, workers: &'a W) -> Attribution<'a, W> {
         Attribution {
             dataset: &self.dataset,

@@ -23,8 +23,6 @@ use switchback_model::rig::Rig;
 
 use crate::diagnosis::Diagnosis;
 use crate::error::DiagnoseError;
-use crate::posterior::Classification;
-use crate::records::dataset::Dataset;
 use crate::settings::{Model, Settings};
 use crate::workers::{Serial, Workers};
 
@@ -32,8 +30,7 @@ use crate::workers::{Serial, Workers};
 ///
 /// Identifies (or takes) the nominal model, fits every effect of the library together with it, ranks them by penalised
 /// likelihood, tests what the best leaves, and measures how far it closes the gap on the held-out records. Where nobody designed the records
-/// and no order is declared, a trained [posterior](crate::posterior) decides, if the settings have one, and the effects that it finds likely are fitted;
-/// without one the [built-in](crate::posterior::Posterior::built_in) posterior is asked where rules show none of the candidates.
+/// and no order is declared, a trained [posterior](crate::posterior) decides, and only the effects that it finds likely are fitted.
 ///
 /// # Errors
 /// [`DiagnoseError`] where nothing can be judged; what can be judged only in part becomes a
@@ -55,17 +52,5 @@ pub fn diagnose_with(
     match model {
         Model::Identify => own::of_own_model(workers, rig, settings),
         model => sources::compared(workers, rig, model, settings),
-    }
-}
-
-/// The probabilities of all causes of a rig by itself, without any repair; none where the settings have no posterior or rules decide: an experiment was
-/// designed, an order is declared, the colour of noise is asked for, or the records show no nominal system.
-///
-/// # Errors
-/// As [`diagnose`].
-pub fn classify(rig: &Rig, settings: &Settings) -> Result<Option<Classification>, DiagnoseError> {
-    match &settings.posterior {
-        Some(posterior) => classified::classification(rig, (&Dataset::new(rig)?, settings), posterior),
-        None => Ok(None),
     }
 }

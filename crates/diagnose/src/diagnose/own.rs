@@ -2,7 +2,7 @@
 
 use switchback_model::rig::Rig;
 
-use super::analyses::{Analyses, Analysis};
+use super::analyses::Analysis;
 use super::plan::Plan;
 use super::{classified, refit};
 use crate::attribution::PairEffort;
@@ -10,13 +10,12 @@ use crate::diagnosis::Diagnosis;
 use crate::error::DiagnoseError;
 use crate::nominal::order::{Choice, Chosen, declared, of_structure, structure};
 use crate::phase::Phase;
-use crate::posterior::Posterior;
 use crate::records::dataset::Dataset;
 use crate::settings::{Model, Settings};
 use crate::verdict::answer::Status;
 use crate::workers::Workers;
 
-/// By a posterior where the settings have one or rules show no candidate, else by rules.
+/// By the posterior where nobody designed the records and no order is declared, else by rules.
 pub(super) fn of_own_model(
     workers: &impl Workers,
     rig: &Rig,
@@ -25,20 +24,10 @@ pub(super) fn of_own_model(
     workers.begin(Phase::Nominal);
     let records = Dataset::new(rig)?;
     let declared = declared(rig, &Model::Identify)?;
-    if let Some(posterior) = &settings.posterior
-        && let Some(diagnosis) = classified::classified(workers, rig, (&records, settings), posterior)?
-    {
-        return Ok(diagnosis);
+    match classified::classified(workers, rig, (&records, settings))? {
+        Some(diagnosis) => Ok(diagnosis),
+        None => by_rules(workers, rig, (&records, settings), declared),
     }
-    let by_rules = by_rules(workers, rig, (&records, settings), declared)?;
-    let is_silent =
-        by_rules.verdict.status == Status::Unexplained && by_rules.verdict.held_out_error_ratio.is_none();
-    if settings.posterior.is_some() || !is_silent {
-        return Ok(by_rules);
-    }
-    let posterior = Posterior::built_in();
-    let by_posterior = classified::classified(workers, rig, (&records, settings), posterior)?;
-    Ok(by_posterior.filter(|diagnosis| diagnosis.verdict.lists()).unwrap_or(by_rules))
 }
 
 /// The diagnosis by fits of every effect and by rules.
@@ -50,22 +39,21 @@ fn by_rules(
 ) -> Result<Diagnosis, DiagnoseError> {
     let plan = |chosen: Chosen| Plan::new(rig, &Model::Identify, settings, chosen);
     let chosen = structure(workers, (rig, records.clone()), declared, settings)?;
-    let (mut reported, others) = analyse(workers, chosen, &plan)?;
+    let mut reported = analyse(workers, chosen, &plan)?;
     if declared.is_none() {
         reported = with_room_for_dynamics(workers, reported, (records, &plan))?;
     }
-    Ok(Analyses::new(workers, reported, others).report(workers))
+    Ok(reported.report(workers))
 }
 
-/// The analysis of one choice; of two, that one step ahead where it shows a cause with which no simulator is needed. Behind it the other analysis,
-/// where that was run, too.
+/// The analysis of one choice; of two, that one step ahead where it shows a cause with which no simulator is needed.
 fn analyse(
     workers: &impl Workers,
     choice: Choice,
     plan: &impl Fn(Chosen) -> Result<Plan, DiagnoseError>,
-) -> Result<(Analysis, Vec<Analysis>), DiagnoseError> {
+) -> Result<Analysis, DiagnoseError> {
     let (mut steps, simulator) = match choice {
-        Choice::One(chosen) => return Ok((Analysis::run(workers, plan(chosen)?), Vec::new())),
+        Choice::One(chosen) => return Ok(Analysis::run(workers, plan(chosen)?)),
         Choice::Either(steps, simulator) => (plan(steps)?, simulator),
     };
     steps.pair_effort = PairEffort::WhileHopeful;
@@ -77,18 +65,18 @@ fn analyse(
     let is_needless =
         reported && simulator.is_needless_beside(&steps.plan.dataset, &steps.conclusion.augmented.fit);
     if is_asked || is_needless && !refit::shows_dynamics(verdict) {
-        return Ok((steps, Vec::new()));
+        return Ok(steps);
     }
     let chosen = simulator.chosen();
     // Dynamics that a simulator of another structure has without any effect are the machine's own.
     if is_needless && !steps.does_the_same(&chosen) {
-        return Ok((steps, Vec::new()));
+        return Ok(steps);
     }
     let runs = Analysis::run(workers, plan(chosen)?);
     // A simulator may be blind to an effect that it leaves alone.
     Ok(match (verdict.status, runs.conclusion.verdict.status) {
-        (Status::Unexplained, Status::None) => (steps, vec![runs]),
-        _ => (runs, vec![steps]),
+        (Status::Unexplained, Status::None) => steps,
+        _ => runs,
     })
 }
 

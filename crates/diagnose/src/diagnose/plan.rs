@@ -83,11 +83,6 @@ impl Plan {
         })
     }
 
-    /// Whether the nominal model was identified from records that nobody designed, its order unknown.
-    pub(super) fn is_of_the_field(&self) -> bool {
-        self.owns_colour && !self.dataset.holds_nominal()
-    }
-
     /// Founds the diagnosis on another optimum of the nominal model.
     pub(super) fn found_on(&mut self, nominal: Nominal) {
         if self.given.is_none() {

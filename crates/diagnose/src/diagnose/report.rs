@@ -37,16 +37,6 @@ pub(super) struct Conclusion {
     pub(super) other: Option<Other>,
 }
 
-impl Conclusion {
-    /// The effect that is the likeliest candidate by rules, with its probability; none where nothing or none of these is likelier.
-    pub(super) fn likeliest(&self) -> Option<(Effect, f64)> {
-        let weighed =
-            self.singles.iter().zip(&self.odds.effects).map(|(s, p)| (s.effect_terms[0].effect, *p));
-        let first = weighed.reduce(|best, x| if x.1 > best.1 { x } else { best });
-        first.filter(|(_, p)| *p > self.odds.none.max(self.odds.unexplained))
-    }
-}
-
 /// A nominal model of another structure.
 pub(super) struct Other {
     pub(super) structure: Structure,
@@ -60,7 +50,7 @@ impl Plan {
         self,
         c: Conclusion,
         candidates: Vec<Candidate>,
-        evidence: Vec<Compared>,
+        evidence: Option<Compared>,
     ) -> Diagnosis {
         let dataset = &self.dataset;
         let mut floor = self.noise_floor(&c.augmented.fit);
@@ -116,7 +106,6 @@ impl Plan {
             where_,
             verdict,
             differences: None,
-            second_opinion: None,
             classification: None,
             gap,
             candidates,

@@ -22,7 +22,7 @@ use crate::evidence::Judged;
 use crate::nominal::order::{Choice, declared, structure};
 use crate::nominal_model::NominalModel;
 use crate::phase::Phase;
-use crate::posterior::{Classification, Posterior};
+use crate::posterior::Classification;
 use crate::records::dataset::{Dataset, dimensionless};
 use crate::settings::{Model, Settings};
 use crate::verdict::answer::{Status, Verdict, naming_nothing};
@@ -62,13 +62,12 @@ pub(super) fn compared(
     if let Some(own) = of_own_nominal(workers, (&rig, settings), &found) {
         return Ok(Diagnosis { differences: Some(Differences { basis: Basis::Nominal, ..found }), ..own });
     }
-    let posterior = settings.posterior.as_deref().unwrap_or_else(|| Posterior::built_in());
     // Evidence is freed of the directions of the source's values, but not of those of effects that stand for another.
     let runs: Vec<Vec<f64>> = found.runs.iter().map(|[run, _]| run.clone()).collect();
     let Ok(Some(judged)) = Judged::beside(&rig, &runs) else { return Ok(diagnosis) };
     let diagnosis =
         Diagnosis { differences: Some(Differences { basis: Basis::Errors, ..found }), ..diagnosis };
-    Ok(with(diagnosis, Classification::of(&judged, posterior, settings)?))
+    Ok(with(diagnosis, Classification::of(&judged, settings)?))
 }
 
 /// Share of the source's mean square error below which its distance from the machine's own nominal model leaves both with the same gap.
@@ -209,7 +208,7 @@ fn report(mut plan: Plan, rig: &Rig, differences: Option<Differences>) -> Diagno
         );
         let verdict = naming_nothing(Status::Unexplained, None, 1.0);
         let conclusion = conclusion(&plan, verdict, None);
-        return plan.report(conclusion, Vec::new(), Vec::new());
+        return plan.report(conclusion, Vec::new(), None);
     };
     for shift in &found.shifts {
         plan.limitations.push(format!(
@@ -228,7 +227,7 @@ fn report(mut plan: Plan, rig: &Rig, differences: Option<Differences>) -> Diagno
     let other = Other { structure: plan.structure, runs, floor };
     let candidates = candidates(&found);
     let conclusion = conclusion(&plan, verdict, Some(other));
-    Diagnosis { differences: Some(found), ..plan.report(conclusion, candidates, Vec::new()) }
+    Diagnosis { differences: Some(found), ..plan.report(conclusion, candidates, None) }
 }
 
 /// Variance of the machine's noise and its relative standard error: that which its own model leaves, or the aligned source, whichever leaves less.

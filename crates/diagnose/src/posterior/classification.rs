@@ -2,8 +2,10 @@
 
 use super::decision::{Decision, Outcome, Thresholds, decide};
 use super::error::PosteriorError;
+use super::leading_fit::LeadingFit;
 use super::prior::Prior;
 use super::weights::Posterior;
+use crate::comparison::Compared;
 use crate::effect::Effect;
 use crate::evidence::Judged;
 use crate::settings::Settings;
@@ -39,6 +41,8 @@ pub struct Classification {
     pub novelty: f64,
     /// From which probabilities on a cause is reported.
     pub thresholds: Thresholds,
+    /// The fit that joined the probabilities, where one leads.
+    pub leading: Option<LeadingFit>,
 }
 
 /// Share of the rigs held out in training beyond which a rig is not one of their kind.
@@ -49,16 +53,13 @@ impl Classification {
     ///
     /// # Errors
     /// [`PosteriorError`] where the posterior was trained with other columns.
-    pub(crate) fn of(
-        judged: &Judged,
-        posterior: &Posterior,
-        settings: &Settings,
-    ) -> Result<Self, PosteriorError> {
+    pub(crate) fn of(judged: &Judged, settings: &Settings) -> Result<Self, PosteriorError> {
+        let posterior = settings.posterior();
         let named: Vec<(&str, f64)> =
             judged.evidence.columns.iter().map(|(name, value)| (name.as_str(), *value)).collect();
         let row = posterior.row(&named)?;
         let mut p = posterior.probabilities(&row, Posterior::ALL)?;
-        let prior = settings.prior.map_or(posterior.prior, Prior::from);
+        let prior = settings.prior.unwrap_or(posterior.prior);
         for (p, name) in p.iter_mut().zip(&posterior.classes) {
             *p *= match (name.as_str(), Effect::from_name(name)) {
                 (NOTHING, _) => prior.none / posterior.prior.none,
@@ -92,7 +93,28 @@ impl Classification {
             none_of_these: of(NONE_OF_THESE),
             novelty: posterior.novelty.quantile(&row),
             thresholds: posterior.thresholds,
+            leading: None,
         })
+    }
+
+    /// The fit that leads in a comparison, if one does.
+    pub(crate) fn leading_fit(&self, compared: &Compared) -> Option<LeadingFit> {
+        LeadingFit::of(compared, |effect| self.probability(effect))
+    }
+
+    /// The probabilities joined by a fit that leads.
+    #[must_use]
+    pub(crate) fn joined_by(mut self, leading: Option<LeadingFit>) -> Self {
+        let Some(leading) = leading else { return self };
+        let weight = leading.weight(LeadingFit::COEFFICIENTS);
+        let sum = 1.0 + leading.by_evidence * (weight - 1.0);
+        for cause in &mut self.causes {
+            let factor = if cause.effect == Some(leading.effect) { weight } else { 1.0 };
+            cause.probability *= factor / sum;
+        }
+        self.causes.sort_by(|x, y| y.probability.total_cmp(&x.probability));
+        let (none, none_of_these) = (self.none / sum, self.none_of_these / sum);
+        Self { none, none_of_these, leading: Some(leading), ..self }
     }
 
     /// Whether the rig is unlike those that the posterior was trained on.
@@ -190,6 +212,7 @@ mod tests {
             none_of_these,
             novelty,
             thresholds: Thresholds::default(),
+            leading: None,
         }
     }
 
@@ -212,6 +235,22 @@ mod tests {
         let list = of(&[("backlash", 0.5), ("creep", 0.2)], [0.2, 0.1], 0.5).verdict();
         assert_eq!((list.status, list.class.len()), (Status::Shortlist, 2));
         assert!((list.probability - 0.7).abs() < 1e-12);
+    }
+
+    #[test]
+    fn probabilities_joined_by_a_fit_sum_to_one() {
+        let before = of(&[("backlash", 0.3), ("creep", 0.4)], [0.1, 0.2], 0.5);
+        let leading =
+            LeadingFit { effect: Effect::Backlash, closes: 0.9, gains: [900.0, 90.0], by_evidence: 0.3 };
+        let after = before.clone().joined_by(Some(leading));
+        let sum = after.causes.iter().map(|cause| cause.probability).sum::<f64>()
+            + after.none
+            + after.none_of_these;
+        assert!((sum - 1.0).abs() < 1e-12 && after.leading == Some(leading));
+        assert!(after.causes[0].name == "backlash" && after.causes[0].probability > 0.3);
+        // All others keep their ratios.
+        assert!((after.none / after.none_of_these - 0.5).abs() < 1e-12);
+        assert_eq!(before.clone().joined_by(None), before);
     }
 
     #[test]

@@ -2,7 +2,8 @@
 //!
 //! The weights are data ([`Posterior::read`]), written by a command of the laboratory. Evaluation is plain arithmetic in a fixed order. The
 //! probabilities are a weighted geometric mean of [boosted trees](Trees), a [network](Network) and a [ranker](Ranker), which a
-//! [second stage](SecondStage) joins with the likelihood of fits, raised to a power that was fitted to a population. [`Novelty`] is the distance of a row from the training population, [`decide`] gives the report.
+//! [second stage](SecondStage) joins with the likelihood of fits, raised to a power that was fitted to a population; a [fit that leads](LeadingFit) on the user's own records joins them.
+//! [`Novelty`] is the distance of a row from the training population, [`decide`] gives the report.
 
 mod built_in;
 mod bytes;
@@ -10,6 +11,7 @@ mod classification;
 mod decision;
 mod error;
 mod file;
+mod leading_fit;
 mod network;
 mod novelty;
 mod prior;
@@ -24,6 +26,7 @@ pub use classification::{Cause, Classification};
 pub use decision::{Decision, Losses, Outcome, Thresholds, decide};
 pub use error::PosteriorError;
 pub use file::VERSION;
+pub use leading_fit::LeadingFit;
 pub use network::{Layer, Network};
 pub use novelty::Novelty;
 pub use prior::Prior;

@@ -1,7 +1,5 @@
 //! How common causes are.
 
-use crate::verdict::fitted::Shares;
-
 /// How common causes are: shares of all rigs, summing to one.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Prior {
@@ -11,11 +9,4 @@ pub struct Prior {
     pub none: f64,
     /// A cause that the library does not have.
     pub none_of_these: f64,
-}
-
-impl From<Shares> for Prior {
-    fn from(shares: Shares) -> Self {
-        let Shares { effect, none, none_of_these } = shares;
-        Self { effect, none, none_of_these }
-    }
 }

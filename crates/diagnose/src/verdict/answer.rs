@@ -82,13 +82,6 @@ pub struct Verdict {
     pub held_out_error_ratio: Option<f64>,
 }
 
-impl Verdict {
-    /// Whether it shows effects: as the cause, or as the likeliest ones.
-    pub fn lists(&self) -> bool {
-        matches!(self.status, Status::Named | Status::Class | Status::Ambiguous | Status::Shortlist)
-    }
-}
-
 impl fmt::Display for Verdict {
     /// One line: `named: backlash (operator), probability 0.97`.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {

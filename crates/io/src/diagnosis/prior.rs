@@ -1,6 +1,6 @@
 //! `none=0.2,unexplained=0.1`
 
-use switchback_diagnose::fitted::Shares;
+use switchback_diagnose::posterior::Prior;
 use thiserror::Error;
 
 /// A text that does not say how common causes are.
@@ -19,7 +19,7 @@ pub struct NoPrior;
 ///
 /// # Errors
 /// [`NoPrior`] with what to give instead.
-pub fn prior(text: &str) -> Result<Shares, NoPrior> {
+pub fn prior(text: &str) -> Result<Prior, NoPrior> {
     let share = |name: &str| {
         let mut given =
             text.split(',').filter_map(|part| part.split_once('=')).filter(|(key, _)| key.trim() == name);
@@ -30,7 +30,7 @@ pub fn prior(text: &str) -> Result<Shares, NoPrior> {
     let effect = 1.0 - none - none_of_these;
     // Shares that sum to one leave nothing but rounding.
     if effect > 1e-9 && text.split(',').count() == 2 {
-        Ok(Shares { effect, none, none_of_these })
+        Ok(Prior { effect, none, none_of_these })
     } else {
         Err(NoPrior)
     }

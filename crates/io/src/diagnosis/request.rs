@@ -1,8 +1,7 @@
 //! What is asked of a diagnosis.
 
 use std::sync::Arc;
-use switchback_diagnose::fitted::Shares;
-use switchback_diagnose::posterior::Posterior;
+use switchback_diagnose::posterior::{Posterior, Prior};
 use switchback_diagnose::{Effect, Settings};
 
 /// What the user knows of the rig and wants of its models.
@@ -15,7 +14,7 @@ pub struct Request {
     /// Whether nominal models must be able to run in real time.
     pub causal: bool,
     /// How common causes are on machines like this one.
-    pub prior: Option<Shares>,
+    pub prior: Option<Prior>,
     /// The posterior that decides on records that nobody designed, where there is one.
     pub posterior: Option<Arc<Posterior>>,
 }

@@ -41,9 +41,6 @@ pub struct Answered {
     pub with_model: bool,
     /// What was said.
     pub reply: Reply,
-    /// What rules said before the other readings of the records were asked, where that was done.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub by_rules: Option<Reply>,
     /// What it rests on.
     pub evidence: Evidence,
     /// How far the gap closes, where that was stated and what was put in moves the simulation. In the field the gap is that of the model
@@ -64,17 +61,11 @@ impl Answered {
         Self {
             with_model,
             reply: diagnosis.map_or_else(Reply::refused, Reply::of),
-            by_rules: diagnosis.and_then(Reply::by_rules),
             evidence: diagnosis.map_or_else(Evidence::default, Evidence::of),
             closure: None,
             baseline: None,
             places: Vec::new(),
         }
-    }
-
-    /// What rules alone say.
-    pub(crate) fn rules(&self) -> &Reply {
-        self.by_rules.as_ref().unwrap_or(&self.reply)
     }
 }
 

@@ -42,23 +42,6 @@ impl Reply {
         Self::reported(&d.verdict, Self::top(d))
     }
 
-    /// What rules said, where a fitted verdict is reported instead.
-    pub(crate) fn by_rules(d: &Diagnosis) -> Option<Self> {
-        let opinion = d.second_opinion.as_ref()?;
-        let rules = &opinion.by_rules;
-        let top = match opinion.likeliest_by_rules {
-            Some((effect, p)) => (effect.name(), p),
-            None if rules.status == Status::Unexplained => (Status::Unexplained.name(), rules.probability),
-            None => (Status::None.name(), rules.probability),
-        };
-        Some(Self::reported(rules, top))
-    }
-
-    /// What a posterior says.
-    pub(crate) fn classified(c: &Classification) -> Self {
-        Self::reported(&c.verdict(), likeliest(c.effects(), [c.none, c.unexplained()]))
-    }
-
     fn top(d: &Diagnosis) -> (&'static str, f64) {
         let fitted = || d.candidates.iter().map(|c| (c.effect, c.probability)).collect();
         let effects = d.classification.as_ref().map_or_else(fitted, Classification::effects);
@@ -102,7 +85,7 @@ pub struct Evidence {
     pub samples: usize,
     /// The best pair of effects, where one was looked for.
     pub together: Option<PairEvidence>,
-    /// What the records say of every effect, one comparison at a time: what a verdict is fitted to.
+    /// What the records say of every effect that was fitted.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub compared: Vec<Compared>,
 }
@@ -159,7 +142,7 @@ impl Evidence {
             candidates,
             samples: d.samples,
             together: d.together.as_ref().map(PairEvidence::of),
-            compared: d.evidence.clone(),
+            compared: d.evidence.iter().cloned().collect(),
         }
     }
 }

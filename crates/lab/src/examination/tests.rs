@@ -27,7 +27,6 @@ fn answered(status: &'static str, effects: &[&'static str]) -> Answered {
     Answered {
         with_model: false,
         reply,
-        by_rules: None,
         evidence: Evidence::default(),
         closure: None,
         baseline: Some(Baseline { plain_bic: Some("creep"), ..Baseline::default() }),

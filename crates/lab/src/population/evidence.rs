@@ -2,7 +2,7 @@
 
 use super::draw::draw;
 use super::measured::MeasuredBases;
-use super::training_rig::{Kind, TrainingRig};
+use super::training_rig::TrainingRig;
 use crate::learning::{Group, Truth};
 use rayon::prelude::*;
 use std::fmt::Write;
@@ -22,9 +22,6 @@ pub struct EvidenceRow {
     pub columns: Vec<(String, f64)>,
 }
 
-/// Size below which an effect leaves no trace that anybody could name: what changes less than a third of the noise adds a twentieth to its energy.
-const FAINT: f64 = 0.33;
-
 impl EvidenceRow {
     /// By the nominal system that the program itself would identify; none where there is none.
     pub fn of(rig: &TrainingRig) -> Option<Self> {
@@ -38,16 +35,8 @@ impl EvidenceRow {
         };
         let truth = &rig.truth;
         let size = rig.surviving_size();
-        // A model that was given has absorbed nothing.
-        let left = if rig.is_given { truth.size } else { size };
-        let label = match truth.kind {
-            _ if left < FAINT => "none",
-            Kind::Nothing => "none",
-            Kind::Foreign => "unexplained",
-            Kind::One | Kind::Pair => truth.label()?,
-        };
+        let label = rig.outcome(size)?;
         let law = truth.effects.first().map_or(String::new(), |e| format!("{}: {}", e.effect, e.law));
-        let others = truth.effects.iter().map(|e| e.effect).chain(truth.own.iter().copied());
         Some(Self {
             label: label.to_owned(),
             group: Group { family: truth.family.name().to_owned(), law, base: truth.base.clone() },
@@ -55,7 +44,7 @@ impl EvidenceRow {
                 size,
                 kind: truth.kind.name().to_owned(),
                 is_given: rig.is_given,
-                also: others.map(str::to_owned).collect(),
+                also: rig.true_names().into_iter().map(str::to_owned).collect(),
             },
             columns: judged.ok()??.evidence.columns,
         })

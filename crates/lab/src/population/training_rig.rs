@@ -64,6 +64,9 @@ impl TrainingTruth {
     }
 }
 
+/// Size below which an effect leaves no trace that anybody could name: what changes less than a third of the noise adds a twentieth to its energy.
+const FAINT: f64 = 0.33;
+
 /// A rig to learn from.
 #[derive(Debug, Clone, PartialEq)]
 pub struct TrainingRig {
@@ -84,6 +87,24 @@ impl TrainingRig {
     /// [`InjectionError`] where the records give no model or leave nothing.
     pub fn identified_size(&self) -> Result<f64, InjectionError> {
         Ok(Base::new(&self.before)?.surviving(&self.rig))
+    }
+
+    /// The outcome that holds, of a size that survives identification anew: the effect with the largest size, `unexplained` of a foreign one, or `none` where what
+    /// is left is too faint to be seen.
+    pub fn outcome(&self, surviving: f64) -> Option<&'static str> {
+        // A model that was given has absorbed nothing.
+        let left = if self.is_given { self.truth.size } else { surviving };
+        match self.truth.kind {
+            _ if left < FAINT => Some("none"),
+            Kind::Nothing => Some("none"),
+            Kind::Foreign => Some("unexplained"),
+            Kind::One | Kind::Pair => self.truth.label(),
+        }
+    }
+
+    /// Names that are not wrong: of all effects that were put in, and of those that the machine has by itself.
+    pub fn true_names(&self) -> Vec<&'static str> {
+        self.truth.effects.iter().map(|effect| effect.effect).chain(self.truth.own.iter().copied()).collect()
     }
 
     /// What survives identification anew, to first order or as the program identifies: the less. The latter chooses order and delay, too.

@@ -4,7 +4,7 @@ use super::{Answer, PowerError};
 use crate::examination::field::{resampled, runs_of};
 use crate::examination::{Reply, law, scramble};
 use crate::generate::{InjectedFault, InjectedRig, InjectionContext, OBSERVABLE, Precision, RequestedFault};
-use switchback_diagnose::{Settings, classify};
+use switchback_diagnose::Settings;
 use switchback_io::diagnosis::{self, DiagnosisError, GivenModel, Source, Subject, SubjectError};
 use switchback_model::rig::Rig;
 
@@ -82,10 +82,6 @@ impl<'a> Context<'a> {
     }
 
     fn diagnosed(&self, rig: Rig) -> Result<Reply, PowerError> {
-        let classified = classify(&rig, &self.settings).ok().flatten();
-        if let Some(classification) = classified.filter(|_| self.model.is_none()) {
-            return Ok(Reply::classified(&classification));
-        }
         let subject: Result<Subject, SubjectError> = match &self.model {
             Some(model) => model.meet(rig, Vec::new()),
             None => Subject::choose(rig, None),

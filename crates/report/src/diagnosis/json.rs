@@ -7,7 +7,6 @@ use super::shift::Shift;
 use super::stability::Stability;
 use schemars::{JsonSchema, Schema};
 use serde::{Deserialize, Serialize};
-use switchback_diagnose::fitted::{self, Shares};
 use switchback_diagnose::{
     Candidate, Cell, CellInterval, Diagnosis, Effect, ExperimentKind, Figure, FittedParameter, Horizon,
     HorizonGain, Stage, Status, Together,
@@ -60,9 +59,7 @@ pub(crate) struct GapFile {
     #[serde(deserialize_with = "switchback_io::input::nullable::number")]
     #[schemars(range(min = 0, max = 1))]
     pub probability_unexplained: f64,
-    /// What a model says that was fitted to diagnoses of rigs whose cause is known; null where an order is declared or an experiment was designed.
-    pub second_opinion: Option<SecondOpinion>,
-    /// What a posterior says that was trained on rigs whose cause is known; null where it was not asked: rules show candidates and none was given, an order is declared or an experiment was designed, or few differences align the source that is compared.
+    /// What a posterior says that was trained on rigs whose cause is known; absent where it was not asked: an order is declared or an experiment was designed, or few differences align the source that is compared.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub posterior: Option<Posterior>,
     /// Held-out recordings whose output differs from that of the fit records' model by a constant or a factor: all else is of these recordings without it.
@@ -106,73 +103,6 @@ pub(crate) struct Verdict {
     /// How many times larger the error is on held-out records that were taken under other conditions than the fit records.
     #[schemars(range(min = 0))]
     pub held_out_error_ratio: Option<f64>,
-}
-
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub(crate) struct SecondOpinion {
-    /// Diagnoses that it was fitted to.
-    pub examples: usize,
-    /// How common causes are taken to be.
-    pub prior: Prior,
-    /// What it would say.
-    pub verdict: Verdict,
-    /// What the rules say, before it is asked whether the other readings of the records agree.
-    pub by_rules: Verdict,
-    /// Every effect, likeliest first.
-    pub effects: Vec<Weighed>,
-    /// Probability that nothing is missing.
-    #[serde(deserialize_with = "switchback_io::input::nullable::number")]
-    #[schemars(range(min = 0, max = 1))]
-    pub probability_none: f64,
-    /// Probability that something is missing which is none of the candidates.
-    #[serde(deserialize_with = "switchback_io::input::nullable::number")]
-    #[schemars(range(min = 0, max = 1))]
-    pub probability_unexplained: f64,
-}
-
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub(crate) struct Weighed {
-    /// The effect.
-    #[schemars(with = "Effect")]
-    pub effect: String,
-    /// Its probability.
-    #[serde(deserialize_with = "switchback_io::input::nullable::number")]
-    #[schemars(range(min = 0, max = 1))]
-    pub probability: f64,
-    /// Why.
-    pub contributions: Vec<Contribution>,
-}
-
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub(crate) struct Prior {
-    /// One of the effects.
-    #[serde(deserialize_with = "switchback_io::input::nullable::number")]
-    #[schemars(range(min = 0, max = 1))]
-    pub effect: f64,
-    /// Nothing is missing.
-    #[serde(deserialize_with = "switchback_io::input::nullable::number")]
-    #[schemars(range(min = 0, max = 1))]
-    pub none: f64,
-    /// A cause that is no candidate.
-    #[serde(deserialize_with = "switchback_io::input::nullable::number")]
-    #[schemars(range(min = 0, max = 1))]
-    pub unexplained: f64,
-}
-
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub(crate) struct Contribution {
-    /// A feature of the evidence.
-    pub feature: String,
-    /// Its value.
-    #[serde(deserialize_with = "switchback_io::input::nullable::number")]
-    pub value: f64,
-    /// What it adds to the logarithm of the odds.
-    #[serde(deserialize_with = "switchback_io::input::nullable::number")]
-    pub adds: f64,
 }
 
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -411,9 +341,8 @@ pub fn schema() -> Schema {
 /// is the model identified anew that closes as much of the gap as any cause (status `refit`), its `delay` as `identify` shows it;
 /// `shifts` are held-out recordings with another zero or gain than the fit records, absent where there are none;
 /// `held_out_error_ratio` is how many times as much (root mean square) the model errs on held-out records that were taken under other
-/// conditions than the fit records, which show nothing missing. `second_opinion` is what a verdict says
-/// that was fitted to so many diagnoses (`examples`) of rigs with known causes, null where an order is declared or an experiment was
-/// designed, or where a `posterior` decides, which says of every cause that it knows its probability and the log-likelihood that it gains; `by_rules` is what the rules say before that is asked. `effects` with their probability and what each feature `adds` to the logarithm of their odds, for causes as common as `prior` says.
+/// conditions than the fit records, which show nothing missing. `posterior` says of every cause that it knows its probability and the log-likelihood that it gains, for causes as
+/// common as `prior` says; absent where an order is declared or an experiment was designed.
 pub fn json(report: &Report) -> String {
     let diagnosis = &report.diagnosis;
     let units = Units::of(&report.rig);
@@ -440,7 +369,6 @@ pub fn json(report: &Report) -> String {
         }),
         probability_none: diagnosis.probability_none,
         probability_unexplained: diagnosis.probability_unexplained,
-        second_opinion: diagnosis.second_opinion.as_ref().map(second_opinion),
         posterior: diagnosis.classification.as_ref().map(Posterior::of),
         shifts: report.shifts.iter().map(Shift::of).collect(),
         stability: report.stability.as_ref().map(Stability::of),
@@ -448,29 +376,6 @@ pub fn json(report: &Report) -> String {
         version: env!("CARGO_PKG_VERSION").to_owned(),
     };
     stamped(SCHEMA, &page)
-}
-
-fn second_opinion(reported: &fitted::SecondOpinion) -> SecondOpinion {
-    let contribution = |c: &fitted::Contribution| Contribution {
-        feature: c.feature.to_owned(),
-        value: c.value,
-        adds: c.adds,
-    };
-    let weighed = |(effect, probability, contributions): &(Effect, f64, Vec<fitted::Contribution>)| Weighed {
-        effect: effect.name().to_owned(),
-        probability: *probability,
-        contributions: contributions.iter().map(contribution).collect(),
-    };
-    let Shares { effect, none, none_of_these } = reported.shares;
-    SecondOpinion {
-        examples: reported.examples,
-        prior: Prior { effect, none, unexplained: none_of_these },
-        verdict: verdict(&reported.verdict),
-        by_rules: verdict(&reported.by_rules),
-        effects: reported.effects.iter().map(weighed).collect(),
-        probability_none: reported.none,
-        probability_unexplained: reported.none_of_these,
-    }
 }
 
 fn verdict(verdict: &switchback_diagnose::Verdict) -> Verdict {

@@ -1,9 +1,7 @@
 //! Why the first candidate comes first: what each saves, by how far ahead it predicts.
 
 use super::posterior;
-use super::probability::probability;
 use super::words::LISTED;
-use switchback_diagnose::fitted::{SecondOpinion, Shares};
 use switchback_diagnose::{Candidate, Diagnosis, Horizon, HorizonGain};
 use switchback_io::diagnosis::Report;
 use switchback_io::diagnosis::{closed_percent, digits, whole_percent};
@@ -11,11 +9,6 @@ use switchback_io::output::{columns, wrapped};
 
 /// Standard errors from which a gain is beyond chance (95 %, one side).
 const CERTAIN: f64 = 1.645;
-
-/// Effects whose odds are compared.
-const COMPARED: usize = 3;
-/// What adds less to a logarithm of the odds is not shown.
-const LEAST: f64 = 0.05;
 
 /// A table of the gains and, where there is a first candidate, its difference from the next.
 pub fn why(report: &Report) -> String {
@@ -28,51 +21,9 @@ pub fn why(report: &Report) -> String {
     let head = "why: share of the nominal model's mean square error on the fit records that each candidate saves, predicting so far ahead; \
                 in brackets the same in its standard errors, which come from the errors themselves";
     let sentences = [verdict(diagnosis).to_owned(), lead(first, listed.get(1)), reach(first)].concat();
-    let second = diagnosis.second_opinion.as_ref().map_or_else(String::new, second);
     let posterior = diagnosis.classification.as_ref().map_or_else(String::new, posterior::words);
     let sentences = wrapped(sentences.trim_end(), "");
-    format!("\n{}{}{sentences}{second}{posterior}", wrapped(head, ""), columns(&table(listed)))
-}
-
-/// What a verdict fitted to rigs with known causes says, and what each feature adds to the logarithm of the odds of the likeliest effects.
-fn second(opinion: &SecondOpinion) -> String {
-    let Shares { effect, none, none_of_these } = opinion.shares;
-    let head = format!(
-        "the verdict is that of a model fitted to {} diagnoses of rigs whose cause is known ({} % had one of the effects, {} % nothing, {} % another \
-         cause{}): nothing is missing with probability {}, the cause is none of the candidates with {}. To the logarithm of the odds of the likeliest \
-         candidates add",
-        opinion.examples,
-        whole_percent(100.0 * effect),
-        whole_percent(100.0 * none),
-        whole_percent(100.0 * none_of_these),
-        if opinion.verdict.calibrated { "" } else { "; evidence like this was not among them" },
-        probability(opinion.none),
-        probability(opinion.none_of_these)
-    );
-    let shown = &opinion.effects[..opinion.effects.len().min(COMPARED)];
-    let Some((.., first)) = shown.first() else { return String::new() };
-    let row = |name: &str, cell: &dyn Fn(usize) -> String| {
-        let [one, two, three] = [0, 1, 2].map(|k| if k < shown.len() { cell(k) } else { String::new() });
-        [name.to_owned(), one, two, three]
-    };
-    let mut rows =
-        vec![row("that it", &|k| shown[k].0.to_string()), row("(probability)", &|k| probability(shown[k].1))];
-    for (at, feature) in first.iter().enumerate() {
-        let adds = |k: usize| shown[k].2[at].adds;
-        if (0..shown.len()).any(|k| adds(k).abs() >= LEAST) {
-            rows.push(row(feature.words, &|k| format!("{:+.1}", adds(k))));
-        }
-    }
-    format!("\n{}{}{}", wrapped(&head, ""), columns(&rows), wrapped(&by_rules(opinion), ""))
-}
-
-/// What rules would show.
-fn by_rules(opinion: &SecondOpinion) -> String {
-    let said = match &opinion.by_rules.effects[..] {
-        [] => opinion.by_rules.status.name().to_owned(),
-        effects => effects.iter().map(ToString::to_string).collect::<Vec<_>>().join(" and "),
-    };
-    format!("Rules tuned by hand say: {said} ({}).", probability(opinion.by_rules.probability))
+    format!("\n{}{}{sentences}{posterior}", wrapped(head, ""), columns(&table(listed)))
 }
 
 fn table(listed: &[Candidate]) -> Vec<[String; 6]> {

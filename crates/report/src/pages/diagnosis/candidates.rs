@@ -1,6 +1,6 @@
 //! The candidates, and why each stands where it stands.
 
-use crate::diagnosis::json::{GapFile, Hypothesis, Pair, Parameter, SecondOpinion, Verdict};
+use crate::diagnosis::json::{GapFile, Hypothesis, Pair, Parameter};
 use crate::diagnosis::posterior::Posterior;
 use crate::diagnosis::probability;
 use crate::pages::table::{Cell, Table};
@@ -19,7 +19,6 @@ pub(super) fn candidates(gap: &GapFile) -> Markup {
         }
         (gains(gap))
         @if let Some(pair) = &gap.together { (together(pair)) }
-        @if let Some(opinion) = &gap.second_opinion { (second(opinion)) }
         @if let Some(posterior) = &gap.posterior { (self::posterior(posterior)) }
     }
 }
@@ -155,43 +154,6 @@ fn together(pair: &Pair) -> Markup {
             ": together they gain " (digits(pair.gain, 3)) " in penalised deviance over the best single effect; shares in what both gain: "
             (shares.collect::<Vec<_>>().join(", ")) "."
         }
-    }
-}
-
-/// What a verdict says in a few words.
-fn said(verdict: &Verdict) -> String {
-    match &verdict.effects[..] {
-        [] => verdict.status.replace('_', " "),
-        effects => effects.join(" and ").replace('_', " "),
-    }
-}
-
-fn second(opinion: &SecondOpinion) -> Markup {
-    let mut table = Table::new(
-        "What the verdict rests on: a model fitted to diagnoses with known causes",
-        ["candidate", "probability", "what speaks for it"],
-    );
-    for weighed in opinion.effects.iter().take(LISTED) {
-        let mut reasons: Vec<_> = weighed.contributions.iter().filter(|c| c.adds.is_finite()).collect();
-        reasons.sort_by(|one, other| other.adds.abs().total_cmp(&one.adds.abs()));
-        let reported = reasons
-            .iter()
-            .take(3)
-            .map(|c| format!("{} {:+.2}", c.feature.replace('_', " "), c.adds).replace('-', "−"));
-        table.row([
-            Cell::word(weighed.effect.replace('_', " ")),
-            Cell::number(probability(weighed.probability), Some(weighed.probability)),
-            Cell::word(reported.collect::<Vec<_>>().join(", ")),
-        ]);
-    }
-    html! {
-        h3 { "What the verdict rests on" }
-        p {
-            "A model fitted to " (opinion.examples) " diagnoses of rigs with known causes says, with probabilities: nothing is missing "
-            (probability(opinion.probability_none)) ", none of these " (probability(opinion.probability_unexplained))
-            ". Rules tuned by hand say " (said(&opinion.by_rules)) "."
-        }
-        (table.html())
     }
 }
 

@@ -91,7 +91,6 @@ mod tests {
         let diagnosis = Diagnosis {
             differences: None,
             verdict,
-            second_opinion: None,
             classification: None,
             gap,
             where_: vec![],
@@ -108,7 +107,7 @@ mod tests {
             residuals_after: ResidualPicture::default(),
             limitations: vec![],
             models: None,
-            evidence: vec![],
+            evidence: None,
         };
         Report { rig: rig(), source: Source::Identified, diagnosis, shifts: Vec::new(), stability: None }
     }
