@@ -54,7 +54,6 @@ pub use part::Label;
 pub use part::Part;
 pub use part::Whole;
 pub use part::merged;
-pub use part::read_cases;
 pub use random::scramble;
 pub(crate) use random::uniform;
 pub(crate) use rating::WIDEST_CLASS;

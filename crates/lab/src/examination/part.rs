@@ -150,11 +150,11 @@ impl Part {
     }
 }
 
-/// Reads what was judged: the cases of a part, or of a report that has them.
+/// Reads the cases of a part.
 ///
 /// # Errors
 /// [`MergeError`] if there are none, or they are not as they were written.
-pub fn read_cases(folder: &Path) -> Result<Vec<Case>, MergeError> {
+fn read_cases(folder: &Path) -> Result<Vec<Case>, MergeError> {
     // Cases hold names, which live as long as the program: so does the text, which is read once.
     let text: &'static str = read_text(&folder.join(CASES_FILE), TextKind::Results)?.leak();
     let cases = text.lines().map(serde_json::from_str).collect::<Result<_, _>>();
