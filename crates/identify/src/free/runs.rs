@@ -157,8 +157,8 @@ impl<'a> Runs<'a> {
         let p = model.information.nrows();
         let segment = &self.segments[0];
         let mut jacobian = DMatrix::zeros(p, segment.len());
-        each_batch(structure, theta, segment, whitening, |t, rows, _| {
-            jacobian.columns_mut(t - segment.from, rows.ncols()).copy_from(&rows);
+        each_batch(structure, theta, segment, whitening, |t, batch, _| {
+            jacobian.columns_mut(t - segment.from, batch.count).copy_from(&batch.view());
         });
         let errors = residuals.into_iter().flat_map(|r| whitened(r, whitening)).collect::<Vec<_>>();
         let batch = |(number, errors): (usize, &[f64])| {

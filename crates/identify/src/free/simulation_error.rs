@@ -5,7 +5,7 @@ use super::rank_one::solve_symmetric;
 use nalgebra::{DMatrix, DMatrixView, DVector};
 use switchback_model::linear::{is_stable, recurse};
 use switchback_model::noise_model::whitened;
-use switchback_noise::lanes::{Columns, Lagged};
+use switchback_noise::lanes::{Columns, Lagged, Products};
 
 /// How hard a refinement tries.
 #[derive(Debug, Clone, Copy)]
@@ -86,7 +86,6 @@ pub(super) fn whitened_cost(
 pub(super) struct Linearised {
     pub(super) information: DMatrix<f64>,
     pub(super) gradient: DVector<f64>,
-    pub(super) cost: f64,
     /// `g` over each batch of consecutive samples, for standard errors that allow for coloured residuals.
     pub(super) batches: Vec<DVector<f64>>,
 }
@@ -108,39 +107,42 @@ pub(super) fn linearise_whitened(
     whitening: &[f64],
 ) -> Linearised {
     let p = theta.a.len() + theta.b.len() + theta.f.len() + 1;
-    let mut sums = Linearised {
-        information: DMatrix::zeros(p, p),
-        gradient: DVector::zeros(p),
-        cost: 0.0,
-        batches: Vec::new(),
-    };
+    let (mut products, mut gradient, mut batches) = (Products::zeros(p), DVector::zeros(p), Vec::new());
     for segment in segments {
         each_batch(structure, theta, segment, whitening, |t, batch, error| {
             let skipped = segment.counted_from.saturating_sub(t);
             if skipped >= error.len() {
                 return;
             }
-            let counted = error.len() - skipped;
-            let (t, batch, error) =
-                (t + skipped, batch.columns(skipped, counted), error.rows(skipped, counted));
-            let gradient = if segment.weights.is_some() {
-                let mut heavy = batch.clone_owned();
-                for (s, mut column) in heavy.column_iter_mut().enumerate() {
-                    column *= segment.weight(t + s);
-                }
-                sums.information.gemm(1.0, &heavy, &batch.transpose(), 1.0);
-                sums.cost += (0..error.len()).map(|s| segment.weight(t + s) * error[s].powi(2)).sum::<f64>();
-                heavy * error
-            } else {
-                sums.information.gemm(1.0, &batch, &batch.transpose(), 1.0);
-                sums.cost += error.norm_squared();
-                batch * error
-            };
-            sums.gradient += &gradient;
-            sums.batches.push(gradient);
+            let (t, batch) = (t + skipped, batch.without(skipped));
+            let weights: Vec<f64> = (t..t + batch.count).map(|t| segment.weight(t)).collect();
+            let weighted = DVector::from_fn(batch.count, |s, _| weights[s] * error[skipped + s]);
+            products.add(batch.columns, batch.first, &weights);
+            let own = batch.view() * weighted;
+            gradient += &own;
+            batches.push(own);
         });
     }
-    sums
+    Linearised { information: products.matrix(), gradient, batches }
+}
+
+/// Consecutive columns of a matrix.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Batch<'a> {
+    columns: &'a Columns,
+    first: usize,
+    pub(super) count: usize,
+}
+
+impl<'a> Batch<'a> {
+    pub(super) fn view(&self) -> DMatrixView<'a, f64> {
+        self.columns.view(self.first, self.count)
+    }
+
+    /// Those behind a number of them.
+    fn without(self, skipped: usize) -> Self {
+        Self { first: self.first + skipped, count: self.count - skipped, ..self }
+    }
 }
 
 /// Visits the filtered Jacobian `D ∂ŷ/∂θ`, a column a sample, and the filtered error, batch by batch; the visitor receives the first sample.
@@ -156,7 +158,7 @@ pub(super) fn each_batch(
     theta: &Parameters,
     segment: &Segment,
     whitening: &[f64],
-    mut visit: impl FnMut(usize, DMatrixView<'_, f64>, &DVector<f64>),
+    mut visit: impl FnMut(usize, Batch<'_>, &DVector<f64>),
 ) {
     let (n, nb, m) = (theta.a.len(), theta.b.len(), theta.f.len());
     let p = n + nb + m + 1;
@@ -192,10 +194,10 @@ pub(super) fn each_batch(
         }
         Lagged { coefficients: &recursion, first: past_kept, count }.recurse(&mut rows);
         let batch = if whitening.is_empty() {
-            rows.view(past_kept, count)
+            Batch { columns: &rows, first: past_kept, count }
         } else {
             Lagged { coefficients: whitening, first: past_kept, count }.filter(&rows, &mut filtered);
-            filtered.view(0, count)
+            Batch { columns: &filtered, first: 0, count }
         };
         visit(t, batch, &error);
         rows.carry_over(count, past_kept);

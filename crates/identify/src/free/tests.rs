@@ -121,8 +121,8 @@ proptest! {
         let weight = (&psi * psi.transpose()).cholesky().unwrap().inverse();
         let p = theta.a.len() + theta.b.len() + theta.f.len() + 1;
         let (mut jacobian, mut error) = (DMatrix::zeros(p, segment.len()), DVector::zeros(segment.len()));
-        each_batch(structure, &theta, &segment, &[], |t, rows, errors| {
-            jacobian.columns_mut(t - segment.from, rows.ncols()).copy_from(&rows);
+        each_batch(structure, &theta, &segment, &[], |t, batch, errors| {
+            jacobian.columns_mut(t - segment.from, batch.count).copy_from(&batch.view());
             error.rows_mut(t - segment.from, errors.len()).copy_from(errors);
         });
         let fast = linearise_whitened(structure, &theta, &[segment], &whitening);
@@ -131,7 +131,6 @@ proptest! {
         let gradient = &jacobian * &weight * &error;
         prop_assert!((fast.gradient - &gradient).amax() < 1e-8 * (1.0 + gradient.amax()));
         let cost = error.dot(&(&weight * &error));
-        prop_assert!((fast.cost - cost).abs() < 1e-8 * (1.0 + cost));
         prop_assert!((whitened_cost(structure, &theta, &[segment], &whitening) - cost).abs() < 1e-8 * (1.0 + cost));
     }
 
@@ -153,7 +152,6 @@ proptest! {
         let [fast, slow] = [segment, weighted].map(|s| linearise_whitened(structure, &theta, &[s], &[0.4]));
         prop_assert!((&fast.information - &slow.information).amax() < 1e-9 * (1.0 + slow.information.amax()));
         prop_assert!((&fast.gradient - &slow.gradient).amax() < 1e-9 * (1.0 + slow.gradient.amax()));
-        prop_assert!((fast.cost - slow.cost).abs() < 1e-9 * (1.0 + slow.cost));
         let costs = [segment, weighted].map(|s| whitened_cost(structure, &theta, &[s], &[0.4]));
         prop_assert!((costs[0] - costs[1]).abs() < 1e-9 * (1.0 + costs[1]));
     }

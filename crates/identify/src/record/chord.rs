@@ -6,6 +6,7 @@ use super::sensitivities::{Differences, errors, filter_and_project};
 use super::stretch::Stretch;
 use nalgebra::{DMatrix, DVector};
 use switchback_model::system::{Path, Quantity, Scale, System};
+use switchback_noise::lanes::{Columns, Products};
 
 /// Directions in which many quantities move the filtered run at one system, used for the systems near it: the chord method.
 ///
@@ -20,8 +21,8 @@ use switchback_model::system::{Path, Quantity, Scale, System};
 #[derive(Debug, Clone)]
 pub struct Chord<'a> {
     quantities: Vec<Quantity>,
-    /// `Q`.
-    basis: DMatrix<f64>,
+    /// `Jᵀ`.
+    jacobian: Columns,
     /// `Λ`.
     eigenvalues: DVector<f64>,
     /// `S⁻¹VΛ^(−½)`: from coordinates by `Q` to quantities.
@@ -54,23 +55,20 @@ impl<'a> Chord<'a> {
         (criterion, scale): (&'a Criterion, &'a Scale),
     ) -> Self {
         let paths: Vec<Path> = stretches.iter().map(|s| system.path(&s.v, s.span)).collect();
-        let jacobian = columns(system, quantities, (stretches, &paths), (criterion, scale));
-        let size =
-            DVector::from_fn(quantities.len(), |k, _| jacobian.column(k).norm().max(f64::MIN_POSITIVE));
-        let mut scaled = jacobian;
-        scaled.column_iter_mut().zip(size.iter()).for_each(|(mut column, size)| column /= *size);
-        let eigen = (scaled.transpose() * &scaled).symmetric_eigen();
-        let shown: Vec<usize> =
-            (0..quantities.len()).filter(|k| eigen.eigenvalues[*k] > LEAST_EIGENVALUE).collect();
+        let jacobian = columns(system, quantities, None, ((stretches, &paths), (criterion, scale)));
+        let information = Products::between(&jacobian, &jacobian);
+        // A quantity that no record shows has no size.
+        let size = information.diagonal().map(|square| if square > 0.0 { square.sqrt() } else { 1.0 });
+        let count = quantities.len();
+        let scaled = DMatrix::from_fn(count, count, |i, k| information[(i, k)] / (size[i] * size[k]));
+        let eigen = scaled.symmetric_eigen();
+        let shown: Vec<usize> = (0..count).filter(|k| eigen.eigenvalues[*k] > LEAST_EIGENVALUE).collect();
         let eigenvalues = DVector::from_fn(shown.len(), |k, _| eigen.eigenvalues[shown[k]]);
-        let rotation = DMatrix::from_fn(quantities.len(), shown.len(), |i, k| {
-            eigen.eigenvectors[(i, shown[k])] / eigenvalues[k].sqrt()
+        let to_quantities = DMatrix::from_fn(count, shown.len(), |i, k| {
+            eigen.eigenvectors[(i, shown[k])] / (eigenvalues[k].sqrt() * size[i])
         });
-        let basis = &scaled * &rotation;
-        let to_quantities =
-            DMatrix::from_fn(quantities.len(), shown.len(), |i, k| rotation[(i, k)] / size[i]);
         let quantities = quantities.to_vec();
-        Self { quantities, basis, eigenvalues, to_quantities, stretches, paths, criterion, scale }
+        Self { quantities, jacobian, eigenvalues, to_quantities, stretches, paths, criterion, scale }
     }
 
     /// The system of least deviance near a start, with that deviance: the quantities of the chord and those of `fresh` are free, all others
@@ -125,14 +123,16 @@ impl<'a> Chord<'a> {
     }
 
     fn equations(&self, point: &Point, fresh: &[Quantity]) -> Equations {
-        let columns =
-            columns(&point.system, fresh, (self.stretches, &self.paths), (self.criterion, self.scale));
         let error = point.error.map(|e| self.criterion.drawn_in(e));
+        let with = ((self.stretches, &self.paths[..]), (self.criterion, self.scale));
+        let joint = columns(&point.system, fresh, Some(&error), with);
+        let (own, count) = (Products::between(&joint, &joint), fresh.len());
+        let across = self.to_quantities.tr_mul(&Products::between(&self.jacobian, &joint));
         Equations {
-            along: self.basis.tr_mul(&error),
-            across: (columns.transpose() * &self.basis).transpose(),
-            information: columns.transpose() * &columns,
-            gradient: columns.tr_mul(&error),
+            along: across.column(count).into_owned(),
+            across: across.columns(0, count).into_owned(),
+            information: own.view((0, 0), (count, count)).into_owned(),
+            gradient: own.view((0, count), (count, 1)).column(0).into_owned(),
         }
     }
 }
@@ -169,26 +169,33 @@ impl Equations {
     }
 }
 
-/// Filtered and projected derivatives, all records joined.
+/// Records with the paths of a known system, and how errors count.
+type Judged<'a> = ((&'a [Stretch], &'a [Path]), (&'a Criterion, &'a Scale));
+
+/// Filtered and projected derivatives, a row a quantity, all records joined; behind them a row of errors where these are given.
 fn columns(
     system: &System,
     quantities: &[Quantity],
-    (stretches, paths): (&[Stretch], &[Path]),
-    (criterion, scale): (&Criterion, &Scale),
-) -> DMatrix<f64> {
+    error: Option<&DVector<f64>>,
+    ((stretches, paths), (criterion, scale)): Judged<'_>,
+) -> Columns {
     let differences = Differences::of(system, quantities, scale);
     let samples = stretches.iter().map(|s| s.v.len()).sum();
-    let mut out = DMatrix::zeros(samples, quantities.len());
+    let count = quantities.len();
+    let mut out = Columns::zeros(count + usize::from(error.is_some()), samples);
     let mut from = 0;
     for (stretch, known) in stretches.iter().zip(paths) {
         let path = system.path_beside(&stretch.v, stretch.span, known);
         let run = stretch.respond(system, &path);
         let mut own = differences.columns(stretch, &path, &run);
         filter_and_project(system, stretch, &mut own, criterion);
-        for (k, column) in own.iter().enumerate() {
-            out.column_mut(k).rows_mut(from, column.len()).copy_from_slice(column);
+        for t in 0..stretch.v.len() {
+            out.column_mut(from + t).iter_mut().zip(&own).for_each(|(x, column)| *x = column[t]);
         }
         from += stretch.v.len();
+    }
+    if let Some(error) = error {
+        error.iter().enumerate().for_each(|(t, e)| out.column_mut(t)[count] = *e);
     }
     out
 }

@@ -5,6 +5,7 @@ use super::stretch::Stretch;
 use nalgebra::{DMatrix, DVector};
 use switchback_model::linear::initial_state_responses;
 use switchback_model::system::{Path, Quantity, Scale, System};
+use switchback_noise::lanes::{Columns, Products};
 
 /// `H = ΣwJᵀJ`, `g = ΣwJᵀe` and `Σρ(e)`, with `e = PD(y − ŷ)`, `J = PD ∂ŷ/∂θ` and `P` the projection off the initial states, in units of the filtered error's
 /// standard deviation.
@@ -88,17 +89,26 @@ impl Sensitivities {
         filter_and_project(system, stretch, &mut all, criterion);
         let error = all.pop().expect("the error is the last");
         let count = all.len();
-        let roots: Vec<f64> = error.iter().map(|e| criterion.weight(*e).sqrt() / criterion.sd).collect();
+        let weights: Vec<f64> =
+            error.iter().map(|e| criterion.weight(*e) / (criterion.sd * criterion.sd)).collect();
         self.deviance += error.iter().map(|e| criterion.loss(*e)).sum::<f64>();
         let length = (stretch.span.total / BLOCKS).max(1);
+        let mut products = Products::zeros(count);
+        let mut rows = Columns::zeros(count, BATCH);
         let mut from = 0;
         while from < error.len() {
             // Blocks of the dataset: the first of a record goes on where the last record ended.
             let to = error.len().min(from + length - (stretch.span.before + from) % length);
-            let rows = DMatrix::from_fn(count, to - from, |k, t| all[k][from + t] * roots[from + t]);
-            let right = DVector::from_fn(to - from, |t, _| error[from + t] * roots[from + t]);
-            self.information.gemm(1.0, &rows, &rows.transpose(), 1.0);
-            let gradient = rows * right;
+            let mut gradient = DVector::zeros(count);
+            for first in (from..to).step_by(BATCH) {
+                let weights = &weights[first..to.min(first + BATCH)];
+                for t in 0..weights.len() {
+                    rows.column_mut(t).iter_mut().zip(&all).for_each(|(x, column)| *x = column[first + t]);
+                }
+                products.add(&rows, 0, weights);
+                let right = DVector::from_fn(weights.len(), |t, _| weights[t] * error[first + t]);
+                gradient.gemv(1.0, &rows.view(0, weights.len()), &right, 1.0);
+            }
             self.gradient += &gradient;
             match self.blocks.last_mut() {
                 Some(last) if from == 0 && !stretch.span.before.is_multiple_of(length) => *last += gradient,
@@ -106,8 +116,12 @@ impl Sensitivities {
             }
             from = to;
         }
+        self.information += products.matrix();
     }
 }
+
+/// Samples whose derivatives are multiplied at once.
+const BATCH: usize = 128;
 
 /// A system moved by small steps of some quantities.
 pub(super) struct Differences<'a>(Vec<(&'a Quantity, System, f64)>);

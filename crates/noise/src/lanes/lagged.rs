@@ -4,7 +4,7 @@ use super::wide::{Work, widest};
 use nalgebra::{Const, DMatrixView, Dyn};
 
 /// Rows that are computed beside each other.
-const ABREAST: usize = 8;
+pub(super) const ABREAST: usize = 8;
 
 /// A matrix of consecutive samples, a column each, its rows filled up to a multiple of [`ABREAST`].
 #[derive(Debug, Clone)]
@@ -19,6 +19,21 @@ impl Columns {
     pub fn zeros(rows: usize, columns: usize) -> Self {
         let stride = rows.next_multiple_of(ABREAST);
         Self { values: vec![0.0; stride * columns], rows, stride }
+    }
+
+    /// Number of rows.
+    pub(super) fn rows(&self) -> usize {
+        self.rows
+    }
+
+    /// Number of columns.
+    pub(super) fn count(&self) -> usize {
+        self.values.len() / self.stride.max(1)
+    }
+
+    /// Columns from one on, one after the other and filled up.
+    pub(super) fn values_from(&self, first: usize) -> &[f64] {
+        &self.values[self.stride * first..]
     }
 
     /// One column.

@@ -2,11 +2,13 @@
 
 mod lagged;
 mod lane;
+mod products;
 mod wide;
 
 pub use lagged::{Columns, Lagged};
 pub use lane::LANES;
 pub use lane::Lane;
+pub use products::Products;
 pub use wide::Work;
 pub use wide::keep_apart;
 pub use wide::widest;
