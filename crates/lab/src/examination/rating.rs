@@ -110,6 +110,19 @@ impl<'c> Asked<'c> {
         })
     }
 
+    /// Whether the likeliest candidate is the fault or confounded with it; none where nobody can show.
+    pub(crate) fn is_guessed(&self) -> Option<bool> {
+        let truth = self.truth().filter(|_| self.rating().is_some())?;
+        Some(same_class(self.answer.reply.top.0, truth))
+    }
+
+    /// Whether the effects listed hold a fault that is not named; none where one effect is named, or nobody can show.
+    pub(crate) fn is_listed(&self) -> Option<bool> {
+        let reply = &self.answer.reply;
+        let truth = self.truth().filter(|_| self.rating().is_some() && reply.status != "named")?;
+        Some(reply.listed().len() <= WIDEST_CLASS && reply.listed().contains(&truth))
+    }
+
     /// The probability claimed and whether what it claims holds; none where nobody can show, as where only what the base shows by itself
     /// is named.
     pub(crate) fn claim(&self) -> Option<(f64, bool)> {

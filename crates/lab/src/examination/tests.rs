@@ -293,6 +293,24 @@ fn with_the_model_and_without_are_distinguished() {
 }
 
 #[test]
+fn a_fault_that_is_not_named_may_be_guessed_or_listed() {
+    let listed = |top, effects: &[&'static str]| {
+        let mut answer = answered("shortlist", &[]);
+        (answer.reply.class, answer.reply.top) = (effects.to_vec(), (top, 0.4));
+        injected(answer)
+    };
+    let named = injected(answered("named", &["backlash"]));
+    let cases = [
+        listed("gradual_transition", &["gradual_transition", "backlash"]),
+        listed("creep", &["creep", "outliers"]),
+        named,
+    ];
+    assert_eq!(reached(&cases[..2], "guess"), Some(0.5));
+    assert_eq!(reached(&cases, "listed"), Some(0.5));
+    assert_eq!(reached(&cases, "model_listed"), None);
+}
+
+#[test]
 fn calibration_is_judged_against_perfect_claims() {
     // Claims of 0.9 of which nine in ten hold: no error, where chance alone would show some.
     let reported =

@@ -16,11 +16,18 @@ pub(super) struct Known<'k> {
     pub(super) claims: &'k Claims,
 }
 
-impl Known<'_> {
+impl<'k> Known<'k> {
     /// Large faults with one of some ratings.
     fn large(&self, with_model: bool, wanted: &[Rating]) -> Reached {
         let large = self.asked.iter().filter(|a| a.is_large() && a.answer.with_model == with_model);
         Reached::Share(share(large, wanted))
+    }
+
+    /// Large faults of which something holds, among those of which it can be said.
+    fn of_large(&self, with_model: bool, holds: impl Fn(&Asked<'k>) -> Option<bool>) -> Reached {
+        let large = self.asked.iter().filter(|a| a.is_large() && a.answer.with_model == with_model);
+        let judged: Vec<bool> = large.filter_map(holds).collect();
+        Reached::Share(Share::over(judged.iter(), |holds| *holds))
     }
 
     /// Wrong ones of the answers that something holds for.
@@ -49,7 +56,7 @@ fn shows(asked: &Asked<'_>, certain: bool) -> bool {
 }
 
 /// Every measure.
-pub(super) fn lines<'k>() -> [Line<Known<'k>>; 15] {
+pub(super) fn lines<'k>() -> [Line<Known<'k>>; 19] {
     [
         ("model_class", "model given: right class, size ≥ 2", Must(AtLeast(0.85)), |k| {
             k.large(true, &RIGHT)
@@ -60,6 +67,18 @@ pub(super) fn lines<'k>() -> [Line<Known<'k>>; 15] {
         ("class", "no model given: right class, size ≥ 2", Must(AtLeast(0.75)), |k| k.large(false, &RIGHT)),
         ("exact", "no model given: exact effect named, size ≥ 2", Must(AtLeast(0.60)), |k| {
             k.large(false, &[Rating::Exact])
+        }),
+        ("model_guess", "model given: likeliest candidate of the right class", Must(AtLeast(0.75)), |k| {
+            k.of_large(true, Asked::is_guessed)
+        }),
+        ("guess", "no model given: likeliest candidate of the right class", Must(AtLeast(0.60)), |k| {
+            k.of_large(false, Asked::is_guessed)
+        }),
+        ("model_listed", "model given: not named, but listed among three", Must(AtLeast(0.85)), |k| {
+            k.of_large(true, Asked::is_listed)
+        }),
+        ("listed", "no model given: not named, but listed among three", Must(AtLeast(0.75)), |k| {
+            k.of_large(false, Asked::is_listed)
         }),
         ("wrong", "of causes named for certain, wrong ones", Must(AtMost(0.05)), |k| {
             k.wrong(|a| shows(a, true))
