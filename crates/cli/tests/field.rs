@@ -180,6 +180,6 @@ fn the_shipped_scenarios_can_be_read() {
     let scenarios = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenarios");
     let full = read(&scenarios.join("field.toml")).expect("a scenario");
     let slice = read(&scenarios.join("field-slice.toml")).expect("a scenario");
-    assert_eq!((full.slice, slice.slice, &full.effects), (None, Some(20), &slice.effects));
+    assert_eq!((full.slice, slice.slice, &full.effects), (None, Some(40), &slice.effects));
     assert!(!full.effects.contains(&"coloured_noise"));
 }

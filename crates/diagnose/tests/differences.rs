@@ -130,14 +130,26 @@ fn a_simulator_that_is_right_differs_in_nothing() {
 }
 
 #[test]
-fn one_value_that_is_off_is_the_one_row() {
+fn a_delay_that_is_off_is_the_one_row() {
     only(&beside(SOUND, Machine { late: 1, ..SOUND }, 11), "delay", -1.0);
     only(&beside(Machine { late: 3, ..SOUND }, SOUND, 12), "delay", 3.0);
+}
+
+#[test]
+fn a_gain_or_a_zero_that_is_off_is_the_one_row() {
     only(&beside(Machine { gain: 1.05, ..SOUND }, SOUND, 13), "gain", 0.05);
     only(&beside(SOUND, Machine { gain: -1.0, ..SOUND }, 14), "gain", -2.0);
     only(&beside(Machine { zero: 2.0, ..SOUND }, SOUND, 15), "offset", 2.0);
+}
+
+#[test]
+fn a_border_that_is_off_is_the_one_row() {
     only(&beside(SOUND, Machine { friction: 3.5, ..SOUND }, 16), "friction", 1.5);
     only(&beside(SOUND, Machine { stiffness: 0.9, ..SOUND }, 17), "stiffness", 0.1);
+}
+
+#[test]
+fn a_frequency_or_a_play_that_is_off_is_the_one_row() {
     only(&beside(SOUND, Machine { omega: 0.3, ..SOUND }, 18), "frequency", 0.1);
     only(&beside(SOUND, Machine { play: 0.6, ..SOUND }, 19), "play", 0.4);
 }

@@ -157,8 +157,9 @@ impl<'a> Runs<'a> {
         let p = model.information.nrows();
         let segment = &self.segments[0];
         let mut jacobian = DMatrix::zeros(p, segment.len());
-        each_batch(structure, theta, segment, whitening, |t, batch, _| {
-            jacobian.columns_mut(t - segment.from, batch.count).copy_from(&batch.view());
+        each_batch(structure, theta, segment, whitening, |t, (columns, first), errors| {
+            let batch = columns.view(first, errors.len());
+            jacobian.columns_mut(t - segment.from, errors.len()).copy_from(&batch);
         });
         let errors = residuals.into_iter().flat_map(|r| whitened(r, whitening)).collect::<Vec<_>>();
         let batch = |(number, errors): (usize, &[f64])| {

@@ -2,7 +2,7 @@
 
 use super::problem::{Parameters, Segment, Structure};
 use super::rank_one::solve_symmetric;
-use nalgebra::{DMatrix, DMatrixView, DVector};
+use nalgebra::{DMatrix, DVector};
 use switchback_model::linear::{is_stable, recurse};
 use switchback_model::noise_model::whitened;
 use switchback_noise::lanes::{Columns, Lagged, Products};
@@ -93,12 +93,6 @@ pub(super) struct Linearised {
 /// Rows of the Jacobian gathered before they are squared: enough for a matrix product to pay, few enough for the cache.
 pub(super) const BATCH: usize = 128;
 
-/// Linearises the free run without a noise model.
-#[cfg(test)]
-pub(super) fn linearise(structure: Structure, theta: &Parameters, segments: &[Segment]) -> Linearised {
-    linearise_whitened(structure, theta, segments, &[])
-}
-
 /// Linearises the free run, filtered by `D` and weighted.
 pub(super) fn linearise_whitened(
     structure: Structure,
@@ -109,16 +103,16 @@ pub(super) fn linearise_whitened(
     let p = theta.a.len() + theta.b.len() + theta.f.len() + 1;
     let (mut products, mut gradient, mut batches) = (Products::zeros(p), DVector::zeros(p), Vec::new());
     for segment in segments {
-        each_batch(structure, theta, segment, whitening, |t, batch, error| {
+        each_batch(structure, theta, segment, whitening, |t, (columns, first), error| {
             let skipped = segment.counted_from.saturating_sub(t);
             if skipped >= error.len() {
                 return;
             }
-            let (t, batch) = (t + skipped, batch.without(skipped));
-            let weights: Vec<f64> = (t..t + batch.count).map(|t| segment.weight(t)).collect();
-            let weighted = DVector::from_fn(batch.count, |s, _| weights[s] * error[skipped + s]);
-            products.add(batch.columns, batch.first, &weights);
-            let own = batch.view() * weighted;
+            let (first, count) = (first + skipped, error.len() - skipped);
+            let weights: Vec<f64> = (0..count).map(|s| segment.weight(t + skipped + s)).collect();
+            let weighted = DVector::from_fn(count, |s, _| weights[s] * error[skipped + s]);
+            products.add(columns, first, &weights);
+            let own = columns.view(first, count) * weighted;
             gradient += &own;
             batches.push(own);
         });
@@ -126,26 +120,8 @@ pub(super) fn linearise_whitened(
     Linearised { information: products.matrix(), gradient, batches }
 }
 
-/// Consecutive columns of a matrix.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Batch<'a> {
-    columns: &'a Columns,
-    first: usize,
-    pub(super) count: usize,
-}
-
-impl<'a> Batch<'a> {
-    pub(super) fn view(&self) -> DMatrixView<'a, f64> {
-        self.columns.view(self.first, self.count)
-    }
-
-    /// Those behind a number of them.
-    fn without(self, skipped: usize) -> Self {
-        Self { first: self.first + skipped, count: self.count - skipped, ..self }
-    }
-}
-
-/// Visits the filtered Jacobian `D ∂ŷ/∂θ`, a column a sample, and the filtered error, batch by batch; the visitor receives the first sample.
+/// Visits the filtered Jacobian `D ∂ŷ/∂θ`, a column a sample, and the filtered error, batch by batch; the visitor receives the first sample, and the
+/// matrix with the first of as many columns as there are errors.
 /// The Jacobian follows the same recursion as `ŷ` itself:
 ///
 /// ```text
@@ -158,7 +134,7 @@ pub(super) fn each_batch(
     theta: &Parameters,
     segment: &Segment,
     whitening: &[f64],
-    mut visit: impl FnMut(usize, Batch<'_>, &DVector<f64>),
+    mut visit: impl FnMut(usize, (&Columns, usize), &DVector<f64>),
 ) {
     let (n, nb, m) = (theta.a.len(), theta.b.len(), theta.f.len());
     let p = n + nb + m + 1;
@@ -194,10 +170,10 @@ pub(super) fn each_batch(
         }
         Lagged { coefficients: &recursion, first: past_kept, count }.recurse(&mut rows);
         let batch = if whitening.is_empty() {
-            Batch { columns: &rows, first: past_kept, count }
+            (&rows, past_kept)
         } else {
             Lagged { coefficients: whitening, first: past_kept, count }.filter(&rows, &mut filtered);
-            Batch { columns: &filtered, first: 0, count }
+            (&filtered, 0)
         };
         visit(t, batch, &error);
         rows.carry_over(count, past_kept);

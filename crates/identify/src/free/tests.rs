@@ -8,7 +8,7 @@ use super::one_shot::{Grid, one_shot};
 use super::problem::{Parameters, Segment, Structure};
 use super::rank_one::over_parameterised;
 use super::regression::Regression;
-use super::simulation_error::{each_batch, free_run, linearise, linearise_whitened, whitened_cost};
+use super::simulation_error::{each_batch, free_run, linearise_whitened, whitened_cost};
 use crate::Estimate;
 use crate::excitation::RandomLevels;
 use nalgebra::{DMatrix, DVector};
@@ -85,7 +85,7 @@ proptest! {
         };
         let jacobian: Vec<DVector<f64>> = (0..p).map(|i| (run(i, 1e-6) - run(i, -1e-6)) / 2e-6).collect();
         let error = DVector::from_column_slice(&y[segment.from..segment.to]) - run(0, 0.0);
-        let fast = linearise(structure, &theta, &[segment]);
+        let fast = linearise_whitened(structure, &theta, &[segment], &[]);
         for i in 0..p {
             let scale = 1.0 + jacobian[i].norm_squared();
             prop_assert!((fast.gradient[i] - jacobian[i].dot(&error)).abs() < 1e-6 * scale * (1.0 + error.norm()));
@@ -121,8 +121,9 @@ proptest! {
         let weight = (&psi * psi.transpose()).cholesky().unwrap().inverse();
         let p = theta.a.len() + theta.b.len() + theta.f.len() + 1;
         let (mut jacobian, mut error) = (DMatrix::zeros(p, segment.len()), DVector::zeros(segment.len()));
-        each_batch(structure, &theta, &segment, &[], |t, batch, errors| {
-            jacobian.columns_mut(t - segment.from, batch.count).copy_from(&batch.view());
+        each_batch(structure, &theta, &segment, &[], |t, (columns, first), errors| {
+            let batch = columns.view(first, errors.len());
+            jacobian.columns_mut(t - segment.from, errors.len()).copy_from(&batch);
             error.rows_mut(t - segment.from, errors.len()).copy_from(errors);
         });
         let fast = linearise_whitened(structure, &theta, &[segment], &whitening);
