@@ -39,6 +39,8 @@ pub(crate) fn sections() -> miette::Result<Quotes> {
         ("blind", block(&format!("{measures}\n\n{}", rules.trim_end()))),
         ("differences", differences("pairs")?),
         ("joints", differences("joints")?),
+        ("field", field(&text("reports/field-slice/summary.md")?)),
+        ("repeatability", block(text("reports/repeatability/summary.txt")?.trim_end())),
         ("bouc-wen", benchmark("bouc-wen")?),
         ("cascaded-tanks", benchmark("cascaded-tanks")?),
         ("speed-short", ratios()?),
@@ -51,6 +53,12 @@ pub(crate) fn sections() -> miette::Result<Quotes> {
 fn differences(name: &str) -> miette::Result<String> {
     let all = text(&format!("reports/differences/{name}.txt"))?;
     Ok(block(all.find("differs ").map_or("", |at| &all[at..])))
+}
+
+/// The measures of a field examination, which come first in its summary.
+fn field(summary: &str) -> String {
+    let measures = summary.split("```text\n").nth(1).and_then(|rest| rest.split("```").next());
+    block(measures.unwrap_or_default().trim_end())
 }
 
 /// The table of a public benchmark, without the diagnosis below it.

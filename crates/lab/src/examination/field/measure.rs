@@ -68,10 +68,10 @@ pub(super) fn lines<'k>() -> [Line<Known<'k>>; 19] {
         ("exact", "no model given: exact effect named, size ≥ 2", Must(AtLeast(0.60)), |k| {
             k.large(false, &[Rating::Exact])
         }),
-        ("model_guess", "model given: likeliest candidate of the right class", Must(AtLeast(0.75)), |k| {
+        ("model_guess", "model given: likeliest of the right class", Must(AtLeast(0.75)), |k| {
             k.of_large(true, Asked::is_guessed)
         }),
-        ("guess", "no model given: likeliest candidate of the right class", Must(AtLeast(0.60)), |k| {
+        ("guess", "no model given: likeliest of the right class", Must(AtLeast(0.60)), |k| {
             k.of_large(false, Asked::is_guessed)
         }),
         ("model_listed", "model given: not named, but listed among three", Must(AtLeast(0.85)), |k| {
