@@ -127,8 +127,11 @@ impl Plan {
             let calibrated = verdict.calibrated;
             verdict = Verdict { calibrated, ..held_out_differs(&odds, ratio) };
         }
-        let first = verdict.effects.first().or(verdict.class.first());
-        let shown = first.and_then(|first| singles.iter().find(|s| s.effect_terms[0].effect == *first));
+        // Of a list the first whose repair makes no held-out record worse beyond its error.
+        let listed = verdict.effects.iter().chain(&verdict.class);
+        let fits = listed.filter_map(|effect| singles.iter().find(|s| s.effect_terms[0].effect == *effect));
+        let is_named = verdict.status == Status::Named;
+        let shown = fits.into_iter().find(|s| is_named || !self.degrades_validation(s));
         let augmented = shown.unwrap_or(nominal).clone();
         let samples = self.dataset.fit_samples();
         let left = omnibus(&self.dataset, &augmented.fit).map_or(0.0, |tests| tests.against(samples));
