@@ -108,14 +108,15 @@ fn features(of: &[&str]) -> BTreeSet<String> {
         .expect("cargo");
     assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
     let text = String::from_utf8(output.stdout).expect("UTF-8");
-    let lines = text.lines().filter(|line| !line.starts_with("switchback"));
+    let lines = text.lines().filter(|line| !line.starts_with("switchback-python"));
     lines.map(|line| line.replace(" (*)", "").replace(" (proc-macro)", "")).collect()
 }
 
 #[test]
 fn the_wheel_is_built_from_the_libraries_of_the_workspace() {
-    let workspace = features(&["--workspace", "--features", "switchback/matlab"]);
-    let wheel = features(&["--package", "switchback-python", "--features", "matlab"]);
+    let program = "switchback/matlab,switchback/mcap,switchback/mdf,switchback/parquet";
+    let workspace = features(&["--workspace", "--features", program]);
+    let wheel = features(&["--package", "switchback-python", "--features", "matlab,mcap,mdf,parquet"]);
     assert!(wheel.len() > 100, "{} libraries", wheel.len());
     let others: Vec<&String> = wheel.difference(&workspace).collect();
     assert!(others.is_empty(), "crates/python/Cargo.toml has not all features of {others:#?}");

@@ -52,7 +52,7 @@ class Program:
 @pytest.fixture
 def program(tmp_path: Path) -> Program:
     if not program_path().exists():
-        pytest.fail(f"{program_path()} is missing: `cargo build --features switchback/matlab`, or run .ci/python")
+        pytest.fail(f"{program_path()} is missing: `cargo build --features switchback/matlab,switchback/mcap,switchback/mdf,switchback/parquet`, or run .ci/python")
     return Program(tmp_path)
 
 
