@@ -1,7 +1,7 @@
 //! The coefficients by which a fit that leads joins a posterior's probabilities (`LeadingFit`):
 //!
 //! `cargo run --example leading_fit -- RIGS SEED COUNT`: draws so many rigs of the training population on the measured rigs of a folder, diagnoses
-//! those without a given model, and maximises the likelihood of their causes.
+//! them, and maximises the likelihood of their causes: of those without a given model by the fits, of the others by the differences.
 
 #![allow(clippy::disallowed_methods, reason = "an example reads its arguments")]
 
@@ -33,11 +33,19 @@ fn run() -> miette::Result<()> {
     let (bases, _) = MeasuredBases::identified(measured_rigs(Path::new(rigs))?);
     let drawn = (0..count).into_par_iter().filter_map(|number| draw(seed, number, &bases));
     let examples: Vec<Example> = drawn.filter_map(|rig| Example::of(&rig)).collect();
-    print(&table(&examples))
+    let (given, own): (Vec<Example>, Vec<Example>) =
+        examples.into_iter().partition(|example| example.is_given);
+    print(&format!(
+        "without a model\n{}\nbeside a model\n{}",
+        table(&own, LeadingFit::OF_FITS),
+        table(&given, LeadingFit::OF_DIFFERENCES)
+    ))
 }
 
 /// What is known of a diagnosis: probabilities by evidence alone.
 struct Example {
+    /// Whether a model was given.
+    is_given: bool,
     /// That of everything which is true of the rig.
     right: f64,
     /// The fit that leads, and whether its effect is true.
@@ -45,12 +53,10 @@ struct Example {
 }
 
 impl Example {
-    /// Of a rig whose records nobody designed and that has no model beside it.
+    /// Of a rig whose records nobody designed.
     fn of(rig: &TrainingRig) -> Option<Self> {
-        if rig.is_given {
-            return None;
-        }
-        let classification = diagnose(&rig.rig, Model::Identify, &Settings::default()).ok()?.classification?;
+        let model = if rig.is_given { Model::Predicted } else { Model::Identify };
+        let classification = diagnose(&rig.rig, model, &Settings::default()).ok()?.classification?;
         let outcome = rig.outcome(rig.surviving_size())?;
         let names = rig.true_names();
         let is_true =
@@ -58,13 +64,14 @@ impl Example {
         let by_evidence = before(&classification);
         let right = by_evidence.iter().filter(|(name, _)| is_true(name)).map(|(_, p)| p).sum();
         let leading = classification.leading.map(|leading| (leading, is_true(leading.effect.name())));
-        Some(Self { right, leading })
+        Some(Self { is_given: rig.is_given, right, leading })
     }
 
     /// The logarithm of the probability of what is true, by some coefficients.
     fn log_score(&self, coefficients: [f64; 2]) -> f64 {
         let Some((leading, is_true)) = &self.leading else { return self.right.max(LEAST).ln() };
-        let more = leading.by_evidence * (leading.weight(coefficients) - 1.0);
+        let leading = LeadingFit { coefficients, ..*leading };
+        let more = leading.by_evidence * (leading.weight() - 1.0);
         let right = self.right + if *is_true { more } else { 0.0 };
         (right / (1.0 + more)).max(LEAST).ln()
     }
@@ -74,7 +81,7 @@ const LEAST: f64 = 1e-9;
 
 /// All outcomes as they were before the fit joined them.
 fn before(classification: &Classification) -> Vec<(&str, f64)> {
-    let weight = classification.leading.map_or(1.0, |leading| leading.weight(LeadingFit::COEFFICIENTS));
+    let weight = classification.leading.map_or(1.0, |leading| leading.weight());
     let sum = classification.leading.map_or(1.0, |leading| 1.0 + leading.by_evidence * (weight - 1.0));
     let causes = classification.causes.iter().map(|cause| {
         let leads = classification.leading.is_some_and(|leading| Some(leading.effect) == cause.effect);
@@ -87,7 +94,7 @@ fn before(classification: &Classification) -> Vec<(&str, f64)> {
     causes.chain(rest).collect()
 }
 
-fn table(examples: &[Example]) -> String {
+fn table(examples: &[Example], coefficients: [f64; 2]) -> String {
     let total = |coefficients| examples.iter().map(|example| example.log_score(coefficients)).sum::<f64>();
     let grid = |to: f64, step: f64| (0..=(to / step) as usize).map(move |k| k as f64 * step);
     let all: Vec<([f64; 2], f64)> = grid(16.0, 0.5)
@@ -113,10 +120,10 @@ fn table(examples: &[Example]) -> String {
         out,
         "log score with these {:.3}, with those of the program {:.3}",
         most / n,
-        total(LeadingFit::COEFFICIENTS) / n
+        total(coefficients) / n
     );
     let leads = examples.iter().filter_map(|example| example.leading.as_ref());
-    let clear: Vec<_> = leads.filter(|(fit, _)| fit.lead(LeadingFit::COEFFICIENTS[1]) > 0.3).collect();
+    let clear: Vec<_> = leads.filter(|(fit, _)| fit.lead(coefficients[1]) > 0.3).collect();
     for (words, is_likely) in [("a fifth or more", true), ("less", false)] {
         let of: Vec<_> = clear.iter().filter(|(fit, _)| (fit.by_evidence >= 0.2) == is_likely).collect();
         let right = of.iter().filter(|(_, is_true)| *is_true).count();

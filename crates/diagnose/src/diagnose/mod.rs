@@ -30,7 +30,8 @@ use crate::workers::{Serial, Workers};
 ///
 /// Identifies (or takes) the nominal model, fits every effect of the library together with it, ranks them by penalised
 /// likelihood, tests what the best leaves, and measures how far it closes the gap on the held-out records. Where nobody designed the records
-/// and no order is declared, a trained [posterior](crate::posterior) decides, and only the effects that it finds likely are fitted.
+/// and no order is declared, a trained [posterior](crate::posterior) decides, and only the effects that it finds likely are fitted. A
+/// model that is given, a simulator or other records are compared value by value; of records that nobody designed the posterior decides about what is missing.
 ///
 /// # Errors
 /// [`DiagnoseError`] where nothing can be judged; what can be judged only in part becomes a

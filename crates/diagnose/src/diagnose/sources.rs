@@ -39,6 +39,7 @@ pub(super) fn compared(
     workers.begin(Phase::Nominal);
     let dataset = Dataset::new(rig)?;
     let declared = declared(rig, &model)?;
+    let is_designed = dataset.is_designed();
     // What is wrong with the model or its predictions comes first.
     let judged = judged_scaled_records(&dataset, &mut Vec::new());
     GivenModel::of(&model, rig, &dataset, &judged)?;
@@ -54,20 +55,56 @@ pub(super) fn compared(
     let plan = Plan::new(&rig, &model, &Settings { effects: Vec::new(), ..settings.clone() }, chosen)?;
     workers.begin(Phase::Report);
     let diagnosis = report(plan, &rig, differences);
-    let Some(found) =
-        diagnosis.differences.clone().filter(|_| diagnosis.verdict.status == Status::Unexplained)
-    else {
-        return Ok(diagnosis);
-    };
-    if let Some(own) = of_own_nominal(workers, (&rig, settings), &found) {
+    let Some(found) = diagnosis.differences.clone() else { return Ok(diagnosis) };
+    match diagnosis.verdict.status {
+        Status::Unexplained => unexplained(workers, (&rig, settings), diagnosis, found),
+        Status::Named if !is_designed => named(&rig, settings, diagnosis, found),
+        _ => Ok(diagnosis),
+    }
+}
+
+/// What differs from a source explains the gap, and an effect is among it: as likely as the posterior holds it after the comparison. Of records that nobody
+/// designed the likelihood of a comparison is none, for no model of theirs is right.
+fn named(
+    rig: &Rig,
+    settings: &Settings,
+    diagnosis: Diagnosis,
+    found: Differences,
+) -> Result<Diagnosis, DiagnoseError> {
+    let Some(classification) = beside(rig, settings, &found)? else { return Ok(diagnosis) };
+    let leading = classification.leading_difference(&missing(&found.rows));
+    let by_differences = diagnosis.verdict.effects.clone();
+    let joined = with(diagnosis, classification.joined_by(leading));
+    let is_confirmed = joined.verdict.status == Status::Named && joined.verdict.effects == by_differences;
+    let basis = if is_confirmed { found.basis } else { Basis::Errors };
+    Ok(Diagnosis { differences: Some(Differences { basis, ..found }), ..joined })
+}
+
+/// No difference explains the gap: the machine's own model decides, or the source's errors.
+fn unexplained(
+    workers: &impl Workers,
+    (rig, settings): (&Rig, &Settings),
+    diagnosis: Diagnosis,
+    found: Differences,
+) -> Result<Diagnosis, DiagnoseError> {
+    if let Some(own) = of_own_nominal(workers, (rig, settings), &found) {
         return Ok(Diagnosis { differences: Some(Differences { basis: Basis::Nominal, ..found }), ..own });
     }
-    // Evidence is freed of the directions of the source's values, but not of those of effects that stand for another.
-    let runs: Vec<Vec<f64>> = found.runs.iter().map(|[run, _]| run.clone()).collect();
-    let Ok(Some(judged)) = Judged::beside(&rig, &runs) else { return Ok(diagnosis) };
+    let Some(classification) = beside(rig, settings, &found)? else { return Ok(diagnosis) };
     let diagnosis =
         Diagnosis { differences: Some(Differences { basis: Basis::Errors, ..found }), ..diagnosis };
-    Ok(with(diagnosis, Classification::of(&judged, settings)?))
+    Ok(with(diagnosis, classification))
+}
+
+/// What the source's errors say. They are freed of the directions of the source's values, but not of those of effects that stand for another.
+fn beside(
+    rig: &Rig,
+    settings: &Settings,
+    found: &Differences,
+) -> Result<Option<Classification>, DiagnoseError> {
+    let runs: Vec<Vec<f64>> = found.runs.iter().map(|[run, _]| run.clone()).collect();
+    let Ok(Some(judged)) = Judged::beside(rig, &runs) else { return Ok(None) };
+    Ok(Some(Classification::of(&judged, settings)?))
 }
 
 /// Share of the source's mean square error below which its distance from the machine's own nominal model leaves both with the same gap.

@@ -6,6 +6,7 @@ use super::leading_fit::LeadingFit;
 use super::prior::Prior;
 use super::weights::Posterior;
 use crate::comparison::Compared;
+use crate::differences::Row;
 use crate::effect::Effect;
 use crate::evidence::Judged;
 use crate::settings::Settings;
@@ -102,11 +103,16 @@ impl Classification {
         LeadingFit::of(compared, |effect| self.probability(effect))
     }
 
+    /// The effect that leads among those missing in a source, if one does.
+    pub(crate) fn leading_difference(&self, missing: &[(Effect, &Row)]) -> Option<LeadingFit> {
+        LeadingFit::missing(missing, |effect| self.probability(effect))
+    }
+
     /// The probabilities joined by a fit that leads.
     #[must_use]
     pub(crate) fn joined_by(mut self, leading: Option<LeadingFit>) -> Self {
         let Some(leading) = leading else { return self };
-        let weight = leading.weight(LeadingFit::COEFFICIENTS);
+        let weight = leading.weight();
         let sum = 1.0 + leading.by_evidence * (weight - 1.0);
         for cause in &mut self.causes {
             let factor = if cause.effect == Some(leading.effect) { weight } else { 1.0 };
@@ -240,8 +246,13 @@ mod tests {
     #[test]
     fn probabilities_joined_by_a_fit_sum_to_one() {
         let before = of(&[("backlash", 0.3), ("creep", 0.4)], [0.1, 0.2], 0.5);
-        let leading =
-            LeadingFit { effect: Effect::Backlash, closes: 0.9, gains: [900.0, 90.0], by_evidence: 0.3 };
+        let leading = LeadingFit {
+            effect: Effect::Backlash,
+            closes: 0.9,
+            gains: [900.0, 90.0],
+            by_evidence: 0.3,
+            coefficients: LeadingFit::OF_FITS,
+        };
         let after = before.clone().joined_by(Some(leading));
         let sum = after.causes.iter().map(|cause| cause.probability).sum::<f64>()
             + after.none

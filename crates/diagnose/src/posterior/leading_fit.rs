@@ -1,9 +1,10 @@
 //! The fit that leads among those of the likeliest effects joins their probabilities.
 
 use crate::comparison::Compared;
+use crate::differences::Row;
 use crate::effect::Effect;
 
-/// The effect that gains most of those that were fitted with the model.
+/// The effect that gains most of those that were fitted with the model, or of those by which a machine differs from a source.
 ///
 /// ```text
 /// x = s·(Δ₁ − Δ₂)/(Δ₁ + c)      s share of the gap on held-out records that it closes, from 0 to 1
@@ -23,11 +24,16 @@ pub struct LeadingFit {
     pub gains: [f64; 2],
     /// `p`: its probability by evidence alone.
     pub by_evidence: f64,
+    /// `β` and `c`: [`OF_FITS`](Self::OF_FITS) or [`OF_DIFFERENCES`](Self::OF_DIFFERENCES).
+    pub coefficients: [f64; 2],
 }
 
 impl LeadingFit {
-    /// `β` and `c`, fitted to rigs of the training population by the example `leading_fit`.
-    pub const COEFFICIENTS: [f64; 2] = [5.0, 10.0];
+    /// `β` and `c` where the effects were fitted with a model of the machine's own: the likeliest on rigs of the training population, by the example
+    /// `leading_fit`.
+    pub const OF_FITS: [f64; 2] = [5.0, 10.0];
+    /// The same where they are missing in a source; `β` of 2.5 to 6 is as likely.
+    pub const OF_DIFFERENCES: [f64; 2] = [4.0, 200.0];
 
     /// That of a comparison; none where no fit of a possible cause gains. `by_evidence` has the probability of an effect.
     pub(crate) fn of(compared: &Compared, by_evidence: impl Fn(Effect) -> f64) -> Option<Self> {
@@ -40,11 +46,27 @@ impl LeadingFit {
             closes: first.closure.map_or(0.0, |closure| closure.clamp(0.0, 1.0)),
             gains: [first.delta_bic, fits.get(1).map_or(0.0, |next| next.delta_bic.max(0.0))],
             by_evidence: by_evidence(first.effect),
+            coefficients: Self::OF_FITS,
         })
     }
 
-    /// The factor of its probability before all sum to one again, by coefficients `β` and `c`.
-    pub fn weight(&self, [beta, large]: [f64; 2]) -> f64 {
+    /// That of the effects missing in a source; none where none is.
+    pub(crate) fn missing(missing: &[(Effect, &Row)], by_evidence: impl Fn(Effect) -> f64) -> Option<Self> {
+        let mut missing: Vec<_> = missing.iter().filter(|(effect, _)| by_evidence(*effect) > 0.0).collect();
+        missing.sort_by(|(_, x), (_, y)| y.gain.total_cmp(&x.gain));
+        let (effect, first) = missing.first().filter(|(_, first)| first.gain > 0.0)?;
+        Some(Self {
+            effect: *effect,
+            closes: first.closure.clamp(0.0, 1.0),
+            gains: [first.gain, missing.get(1).map_or(0.0, |(_, next)| next.gain.max(0.0))],
+            by_evidence: by_evidence(*effect),
+            coefficients: Self::OF_DIFFERENCES,
+        })
+    }
+
+    /// The factor of its probability before all sum to one again.
+    pub fn weight(&self) -> f64 {
+        let [beta, large] = self.coefficients;
         libm::exp(beta * self.lead(large))
     }
 
@@ -87,8 +109,13 @@ mod tests {
         let fits =
             [(Effect::Creep, 150.0, 0.9), (Effect::Backlash, 600.0, 1.3), (Effect::Stribeck, -5.0, 0.1)];
         let leading = LeadingFit::of(&compared(&fits), |_| 0.4).expect("it gains");
-        let expected =
-            LeadingFit { effect: Effect::Backlash, closes: 1.0, gains: [600.0, 150.0], by_evidence: 0.4 };
+        let expected = LeadingFit {
+            effect: Effect::Backlash,
+            closes: 1.0,
+            gains: [600.0, 150.0],
+            by_evidence: 0.4,
+            coefficients: LeadingFit::OF_FITS,
+        };
         assert_eq!(leading, expected);
         let alone = LeadingFit::of(&compared(&[(Effect::Creep, 90.0, -1.0)]), |_| 0.4).expect("it gains");
         assert_eq!((alone.closes, alone.gains), (0.0, [90.0, 0.0]));
@@ -105,11 +132,17 @@ mod tests {
 
     #[test]
     fn a_weight_is_that_of_the_formula() {
-        let fit = |closes, gains| LeadingFit { effect: Effect::Creep, closes, gains, by_evidence: 0.4 };
+        let fit = |closes, gains| LeadingFit {
+            effect: Effect::Creep,
+            closes,
+            gains,
+            by_evidence: 0.4,
+            coefficients: [2.0, 50.0],
+        };
         // x = 0.5 · 300/(450 + 50)
-        assert!((fit(0.5, [450.0, 150.0]).weight([2.0, 50.0]) - (2.0_f64 * 0.3).exp()).abs() < 1e-12);
+        assert!((fit(0.5, [450.0, 150.0]).weight() - (2.0_f64 * 0.3).exp()).abs() < 1e-12);
         // Neither a fit that closes nothing nor one that another equals says anything.
-        let says = |closes, gains| fit(closes, gains).weight(LeadingFit::COEFFICIENTS);
+        let says = |closes, gains| fit(closes, gains).weight();
         assert_eq!([says(0.0, [2000.0, 0.0]), says(1.0, [2000.0, 2000.0])], [1.0, 1.0]);
     }
 }

@@ -27,12 +27,28 @@ const QUIETER: f64 = 0.4;
 ///
 /// None where no machine that was tried gives finite records.
 pub fn draw(seed: u64, index: u64, bases: &MeasuredBases) -> Option<TrainingRig> {
+    draw_if(|_| true, (seed, index), bases)
+}
+
+/// The same where a model is given, else none.
+pub fn draw_given(seed: u64, index: u64, bases: &MeasuredBases) -> Option<TrainingRig> {
+    draw_if(|is_given| is_given, (seed, index), bases)
+}
+
+fn draw_if(
+    wanted: impl Fn(bool) -> bool,
+    (seed, index): (u64, u64),
+    bases: &MeasuredBases,
+) -> Option<TrainingRig> {
     let root = scramble(seed, index);
     let mut rng = stream(root, Purpose::Cause);
     let weights: &[f64] = if bases.is_empty() { &MADE } else { &FAMILIES };
     let family = Family::ALL[weighted(&mut rng, weights)];
     let cause = Cause::draw(family, &mut rng);
     let is_given = rng.random_bool(0.5);
+    if !wanted(is_given) {
+        return None;
+    }
     let mut best: Option<Candidate> = None;
     for attempt in 0..MOST_ATTEMPTS {
         if attempt >= ATTEMPTS && best.is_some() {

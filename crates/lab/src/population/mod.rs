@@ -22,7 +22,7 @@ mod setup;
 mod summary;
 mod training_rig;
 
-pub use draw::draw;
+pub use draw::{draw, draw_given};
 pub use evidence::{EvidenceRow, evidence_table};
 pub use family::Family;
 pub use measured::MeasuredBases;

@@ -75,7 +75,7 @@ class Rig:
         Parameters
         ----------
         files
-            CSV in any dialect or ``.mat``, one a record; or one ``rig.toml``, which says for itself what the other arguments would.
+            CSV in any dialect, ``.mat``, ``.mcap``, ``.mf4`` or ``.parquet``, one a record; or one ``rig.toml``, which says for itself what the other arguments would.
         input, output, time
             Columns by name, the unit may be left out, or by number from 1; else guessed from the header. ``time="none"`` for rows
             that are even whatever the time column says.
