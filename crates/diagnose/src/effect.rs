@@ -60,11 +60,6 @@ impl Effect {
         self.card().confounded_effects
     }
 
-    /// Whether the effect's laws are flexible enough to imitate others almost exactly.
-    pub(crate) fn is_flexible(self) -> bool {
-        self.card().flexible
-    }
-
     /// Whether the effect follows a clock or has a phase of its own in every record, so that what was fitted need not hold
     /// in other records.
     pub(crate) fn is_of_its_record(self) -> bool {

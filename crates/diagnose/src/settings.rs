@@ -19,12 +19,9 @@ pub struct Settings {
     pub causal: bool,
     /// Most effects named together.
     pub max_effects: usize,
-    /// A cause is named when its calibrated probability reaches this.
-    pub name_at: f64,
-    /// How common causes are where the records were taken; as among the rigs that the posterior was trained on, if not given. Counts where that is
-    /// asked: in records that nobody designed.
+    /// How common causes are where the records were taken; as among the rigs that the posterior was trained on, if not given.
     pub prior: Option<Prior>,
-    /// The posterior that decides on records that nobody designed; the [built-in](Posterior::built_in) one, if not given.
+    /// The posterior that decides; the [built-in](Posterior::built_in) one, if not given.
     pub posterior: Option<Arc<Posterior>>,
     /// Probability up to which its likeliest effects are fitted, and most of these.
     pub head: f64,
@@ -80,7 +77,6 @@ impl Default for Settings {
             max_order: 4,
             causal: false,
             max_effects: 2,
-            name_at: 0.85,
             prior: None,
             posterior: None,
             head: 0.98,

@@ -10,12 +10,13 @@ mod successive_halving;
 
 use self::explain::Hypothesis;
 use crate::effect::Effect;
+use crate::posterior::Likelihoods;
 use crate::records::dataset::Dataset;
 use crate::settings::Settings;
 
 /// Penalised deviance that an effect must gain before anything is missing at all: covers the search over some twenty effects,
 /// their laws and their nonlinear parameters.
-pub(crate) const SIGNIFICANT: f64 = 40.0;
+pub(crate) const SIGNIFICANT: f64 = Likelihoods::SEARCHED;
 
 /// What is to be explained, and with what.
 pub(crate) struct Attribution<'a, W> {

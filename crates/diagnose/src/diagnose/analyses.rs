@@ -1,28 +1,56 @@
 //! The comparisons of candidates, and the final report of every effect.
 
 use super::parameters::parameters;
-use super::plan::Plan;
+use super::plan::{Plan, lacks};
 use super::report::Conclusion;
+use super::rig_evidence::RigEvidence;
 use crate::attribution::explain::Hypothesis;
 use crate::attribution::search::profiled;
 use crate::comparison::{Compared, EffectEvidence};
 use crate::diagnosis::{Candidate, Diagnosis};
 use crate::effect::Effect;
+use crate::error::DiagnoseError;
 use crate::nominal::order::Chosen;
 use crate::phase::Phase;
+use crate::posterior::Classification;
 use crate::workers::Workers;
 
-/// One comparison of candidates, and what it concludes.
+/// One nominal model with the likeliest effects, and what follows.
 pub(super) struct Analysis {
     pub(super) plan: Plan,
     pub(super) conclusion: Conclusion,
+    /// The probabilities joined by the fits; none where nothing is left to explain.
+    pub(super) classification: Option<Classification>,
 }
 
 impl Analysis {
-    /// Runs an analysis.
-    pub(super) fn run(workers: &impl Workers, mut plan: Plan) -> Self {
-        let conclusion = plan.attribute(workers);
-        Self { plan, conclusion }
+    /// Fits effects and draws the conclusion.
+    ///
+    /// # Errors
+    /// [`DiagnoseError`] where the posterior was trained with other columns.
+    pub(super) fn run(
+        workers: &impl Workers,
+        mut plan: Plan,
+        evidence: &RigEvidence<'_>,
+    ) -> Result<Self, DiagnoseError> {
+        if let Some(conclusion) = plan.nothing_to_explain() {
+            return Ok(Self { plan, conclusion, classification: None });
+        }
+        let (conclusion, classification) = plan.attribute(workers, evidence)?;
+        plan.limitations.extend(lacks(&classification));
+        Ok(Self { plan, conclusion, classification: Some(classification) })
+    }
+
+    pub(super) fn has_nothing_to_explain(&self) -> bool {
+        self.classification.is_none()
+    }
+
+    /// Error of the simulation of the judged records with the effect whose fit leads, if one does.
+    pub(super) fn error(&self) -> f64 {
+        let leads = self.classification.as_ref().and_then(Classification::confirmed);
+        let shown = |s: &&Hypothesis| leads == Some(s.effect_terms[0].effect);
+        let shown = self.conclusion.singles.iter().find(shown).unwrap_or(&self.plan.nominal.plain);
+        self.plan.simulation_error(&shown.fit)
     }
 
     /// The diagnosis that is handed out.
@@ -30,11 +58,12 @@ impl Analysis {
         workers.begin(Phase::Report);
         let says = self.plan.compared(workers, &self.conclusion);
         let candidates = self.all_candidates(workers, &says);
-        self.plan.report(self.conclusion, candidates, Some(says))
+        let classification = self.classification;
+        Diagnosis { classification, ..self.plan.report(self.conclusion, candidates, Some(says)) }
     }
 
     /// The effects that have a probability, the likeliest first.
-    pub(super) fn all_candidates(&self, workers: &impl Workers, says: &Compared) -> Vec<Candidate> {
+    fn all_candidates(&self, workers: &impl Workers, says: &Compared) -> Vec<Candidate> {
         let Conclusion { singles, odds, .. } = &self.conclusion;
         let weighed: Vec<(&Hypothesis, f64)> = singles.iter().zip(odds.effects.iter().copied()).collect();
         let mut candidates = self.candidates(workers, &weighed, says);

@@ -4,27 +4,142 @@ use super::evidence::Evidence;
 use super::nominal::Nominal;
 use super::plan::Plan;
 use super::report::Conclusion;
+use super::rig_evidence::RigEvidence;
 use crate::attribution::SIGNIFICANT;
 use crate::attribution::explain::Hypothesis;
+use crate::attribution::pairs::Pair;
 use crate::effect::Effect;
-use crate::residuals::omnibus::omnibus;
-use crate::verdict::answer::Status;
-use crate::verdict::decide::{held_out_differs, parameters_are_off, unresolved, verdict, without_colour};
-use crate::verdict::odds::{Residuals, holds_together, odds, odds_together};
-use crate::verdict::simulators::weighed_by_closure;
+use crate::posterior::{Classification, Fits, FittedEffect, PosteriorError};
+use crate::residuals::omnibus::{Omnibus, omnibus};
+use crate::verdict::answer::{Status, Verdict};
+use crate::verdict::decide::{held_out_differs, unresolved};
+use crate::verdict::odds::{IMMATERIAL, Odds, holds_together, of_pair};
 use crate::workers::Workers;
 
-/// What is reported noise whose colour is no cause.
-const COLOURED: &str = "the errors of the equation are coloured, as they are wherever nobody designed the records: that belongs to the model; \
-                        ask for coloured_noise to have it reported as a cause";
-
 impl Plan {
+    /// Fits effects, joins the probabilities by the fits, and draws the conclusion.
+    ///
+    /// # Errors
+    /// [`PosteriorError`] where the posterior was trained with other columns.
+    pub(super) fn attribute(
+        &mut self,
+        workers: &impl Workers,
+        evidence: &RigEvidence<'_>,
+    ) -> Result<(Conclusion, Classification), PosteriorError> {
+        match self.weighs_likelihoods {
+            true => self.by_likelihoods(workers, evidence),
+            false => Ok(self.by_evidence(workers, evidence.classification()?)),
+        }
+    }
+
+    /// The conclusion where the structure of the model is chosen: by evidence, which the fit that leads confirms.
+    fn by_evidence(
+        &mut self,
+        workers: &impl Workers,
+        classification: &Classification,
+    ) -> (Conclusion, Classification) {
+        self.keep_likeliest(classification);
+        let mut singles = self.gather(workers).all;
+        singles.retain(|single| classification.probability(single.effect_terms[0].effect) > 0.0);
+        let by_evidence = self.concluded(singles, classification);
+        let leading = classification.leading_fit(&self.compared(workers, &by_evidence));
+        let classification = classification.clone().joined_by(leading);
+        (self.concluded(by_evidence.singles, &classification), classification)
+    }
+
+    /// Leaves the likeliest effects to be fitted, those with which they are confounded, and the colour of the noise, which may stand in for any.
+    fn keep_likeliest(&mut self, classification: &Classification) {
+        let head = classification.head(&self.settings);
+        let is_beside = |effect: &Effect| {
+            effect.card().colours_noise || head.iter().any(|e| e.confounded_effects().contains(effect))
+        };
+        self.settings.effects.retain(|effect| head.contains(effect) || is_beside(effect));
+    }
+
+    /// The conclusion where the structure of the model is known: by the likelihoods of all fits, and of two effects together. Evidence counts where these do
+    /// not decide.
+    fn by_likelihoods(
+        &mut self,
+        workers: &impl Workers,
+        evidence: &RigEvidence<'_>,
+    ) -> Result<(Conclusion, Classification), PosteriorError> {
+        let mut found = self.gather(workers);
+        if let Some(better) = self.on_the_grid_of(&found.best) {
+            self.found_on(better);
+            found = self.gather(workers);
+        }
+        let fits = self.fits(&found);
+        let before = match fits.decide() {
+            true => evidence.prior(),
+            false => evidence.classification()?.clone(),
+        };
+        let classification = before.joined_by_likelihoods(fits);
+        let mut conclusion = self.concluded(found.all.clone(), &classification);
+        if conclusion.verdict.status == Status::Unexplained {
+            let points_at = found.tests.as_ref().and_then(Omnibus::stage);
+            conclusion.verdict.stage = points_at.or(conclusion.verdict.stage);
+            if self.resolves_no_gap(&conclusion.augmented.fit) {
+                conclusion.verdict = unresolved(&conclusion.odds);
+            }
+        }
+        if let Some(pair) = &found.pair {
+            conclusion.together = Some(self.together(workers, pair, &self.gains(&found.ranked)));
+            self.join_pair(pair, &found, &mut conclusion);
+        }
+        conclusion.verdict.calibrated = self.is_calibrated;
+        Ok((conclusion, classification))
+    }
+
+    /// What the fits say of each effect, and what the best leaves.
+    fn fits(&self, evidence: &Evidence) -> Fits {
+        let samples = self.dataset.fit_samples();
+        let left = evidence.tests.as_ref().map_or(0.0, |tests| tests.against(samples));
+        let best = evidence.best.effects();
+        let misses = !best.is_empty()
+            && (self.hardly_closes(&evidence.best, left) || self.misses_at_places(&evidence.best));
+        let fit = |s: &Hypothesis| {
+            let effect = s.effect_terms[0].effect;
+            FittedEffect {
+                effect,
+                gain: self.nominal.plain.bic() - s.evidence(),
+                is_refuted: evidence.refuted.contains(&effect) || misses && best.contains(&effect),
+            }
+        };
+        Fits { effects: evidence.all.iter().map(fit).collect(), left: (left - IMMATERIAL).max(0.0) }
+    }
+
+    /// Drops of the penalised deviance, the best first.
+    fn gains(&self, fits: &[Hypothesis]) -> Vec<(Effect, f64)> {
+        fits.iter().map(|s| (s.effect_terms[0].effect, self.nominal.plain.bic() - s.bic())).collect()
+    }
+
+    /// Two effects that hold together take the place of one.
+    fn join_pair(&self, pair: &Pair, evidence: &Evidence, conclusion: &mut Conclusion) {
+        let samples = self.dataset.fit_samples();
+        let hypothesis = &pair.hypothesis;
+        let causes = pair.causes(&self.gains(&evidence.ranked), samples);
+        let has_tails = causes.effects.iter().any(|e| e.card().heavy_tails);
+        let holds = holds_together(pair, samples)
+            && self.better_held_out(hypothesis, &evidence.best)
+            && !self.hardly_closes(hypothesis, pair.left)
+            && !self.worsens(hypothesis)
+            && !self.degrades_validation(hypothesis)
+            && self.second_shows(hypothesis, &causes, &evidence.all)
+            && !(has_tails && self.misses_at_places(hypothesis))
+            && (!pair.is_hidden || self.shows_in_simulations(hypothesis));
+        if !holds {
+            return;
+        }
+        conclusion.singles.clone_from(&evidence.ranked);
+        let effects = conclusion.singles.iter().map(|s| s.effect_terms[0].effect);
+        (conclusion.verdict, conclusion.odds) = of_pair(&causes, effects);
+        conclusion.augmented = hypothesis.clone();
+        conclusion.left = pair.left;
+    }
+
     /// The nominal model on the grid of the best candidate, where that is smooth, though it seemed to follow refinements, and the effect
     /// gains nothing on it: the borders are curved, and the effect only rides on the knots.
     fn on_the_grid_of(&self, best: &Hypothesis) -> Option<Nominal> {
-        if self.dataset.holds_nominal() {
-            return None;
-        }
         let least = self.nominal.plain.bic() - SIGNIFICANT;
         best.without_effect_terms(&self.dataset).filter(|alone| alone.bic() < least)?;
         let smooth = best.on_a_smooth_grid(&self.dataset)?;
@@ -35,94 +150,39 @@ impl Plan {
         rides.then_some(Nominal { plain, detailed })
     }
 
-    /// Ranks the candidates and draws the conclusions.
-    pub(super) fn attribute(&mut self, workers: &impl Workers) -> Conclusion {
-        if let Some(nothing) = self.nothing_to_explain() {
-            return nothing;
+    /// What the posterior says, shown by the fit of the effect that comes first.
+    fn concluded(&self, singles: Vec<Hypothesis>, classification: &Classification) -> Conclusion {
+        let probability = |s: &Hypothesis| classification.probability(s.effect_terms[0].effect);
+        let odds = Odds {
+            effects: singles.iter().map(probability).collect(),
+            none: classification.none,
+            unexplained: classification.unexplained(),
+        };
+        let nominal = &self.nominal.plain;
+        let mut verdict = classification.verdict();
+        if verdict.status == Status::None
+            && let Some(ratio) = self.held_out_errors_beyond_chance(&nominal.fit)
+        {
+            let calibrated = verdict.calibrated;
+            verdict = Verdict { calibrated, ..held_out_differs(&odds, ratio) };
         }
-        let mut evidence = self.gather(workers);
-        if let Some(better) = self.on_the_grid_of(&evidence.best) {
-            self.found_on(better);
-            evidence = self.gather(workers);
-        }
-        let rivals = evidence.rivals();
-        let Evidence { all, mut singles, ranked: members, outdone, significant, best, mut tests, pair } =
-            evidence;
+        // Of a list the first whose repair makes no held-out record worse beyond its error.
+        let listed = verdict.effects.iter().chain(&verdict.class);
+        let fits = listed.filter_map(|effect| singles.iter().find(|s| s.effect_terms[0].effect == *effect));
+        let is_named = verdict.status == Status::Named;
+        let shown = fits.into_iter().find(|s| is_named || !self.degrades_validation(s));
+        let augmented = shown.unwrap_or(nominal).clone();
         let samples = self.dataset.fit_samples();
-        let mut left = tests.as_ref().map_or(0.0, |tests| tests.against(samples));
-        // The tests of one-step predictions say nothing about simulators.
-        let deviance = if self.dataset.criterion.simulates() { 0.0 } else { left };
-        let refuted =
-            significant && (outdone || self.hardly_closes(&best, left) || self.misses_at_places(&best));
-        let leaves = Residuals { deviance, gap: self.gap_left(&best.fit), refuted };
-        // What harms is no cause, and a rival all the same: what it would get goes to none of these.
-        let mut odds = odds(self.nominal.plain.bic(), &rivals, leaves);
-        odds.unexplained += odds.effects.drain(singles.len()..).sum::<f64>();
-        let mut joint = None;
-        let of_members = |of: &dyn Fn(&Hypothesis) -> f64| -> Vec<(Effect, f64)> {
-            members.iter().map(|s| (s.effect_terms[0].effect, of(s))).collect()
-        };
-        let gains = of_members(&|s| self.nominal.plain.bic() - s.bic());
-        let found = pair.as_ref().map(|pair| self.together(workers, pair, &gains));
-        if let Some(pair) = pair.filter(|pair| holds_together(pair, samples)) {
-            let causes = pair.causes(&gains, samples);
-            let together =
-                odds_together(self.nominal.plain.bic(), &pair, &causes, &of_members(&Hypothesis::evidence));
-            let (hypothesis, pair_left) = (pair.hypothesis, pair.left);
-            let has_tails = causes.effects.iter().any(|e| e.card().heavy_tails);
-            let misses = has_tails && self.misses_at_places(&hypothesis);
-            let holds = self.better_held_out(&hypothesis, &best)
-                && !self.hardly_closes(&hypothesis, pair_left)
-                && !self.worsens(&hypothesis)
-                && !self.degrades_validation(&hypothesis)
-                && self.second_shows(&hypothesis, &causes, &all)
-                && !misses
-                && (!pair.is_hidden || self.shows_in_simulations(&hypothesis));
-            if together.reported() >= self.settings.name_at && holds {
-                tests = omnibus(&self.dataset, &hypothesis.fit);
-                (left, odds, joint) = (pair_left, together, Some((hypothesis, causes)));
-                singles = members;
-            }
+        let left = omnibus(&self.dataset, &augmented.fit).map_or(0.0, |tests| tests.against(samples));
+        Conclusion {
+            fitted: singles.clone(),
+            singles,
+            odds,
+            verdict,
+            augmented,
+            left,
+            together: None,
+            other: None,
         }
-        let reported = joint.as_ref().map_or(&best, |(hypothesis, _)| hypothesis);
-        let odds = match self.held_out_closure(&reported.fit) {
-            Some(closure) if significant => weighed_by_closure(odds, closure),
-            _ => odds,
-        };
-        let reported = &joint.as_ref().map_or(&best, |(hypothesis, _)| hypothesis).effect_terms;
-        if self.owns_colour
-            && significant
-            && reported.iter().any(|effect_term| effect_term.effect.card().colours_noise)
-        {
-            self.limitations.push(COLOURED.into());
-        }
-        let odds = match joint.is_none() && self.owns_colour {
-            true => odds.with_colour_in_the_model(singles.iter().map(|s| s.effect_terms[0].effect)),
-            false => odds,
-        };
-        let mut ranked: Vec<(Effect, f64)> =
-            singles.iter().zip(&odds.effects).map(|(s, p)| (s.effect_terms[0].effect, *p)).collect();
-        ranked.sort_by(|x, y| y.1.total_cmp(&x.1));
-        let causes = joint.as_ref().map(|(_, causes)| causes);
-        let mut verdict = verdict(&ranked, &odds, causes, tests.as_ref(), &self.settings);
-        let hypothesis = joint.map_or(best, |(hypothesis, _)| hypothesis);
-        if self.owns_colour {
-            verdict = without_colour(verdict);
-        }
-        if self.only_parameters_are_off(verdict.status, &hypothesis.fit) {
-            verdict = parameters_are_off(&verdict);
-        } else if verdict.status == Status::Unexplained && self.resolves_no_gap(&hypothesis.fit) {
-            verdict = unresolved(&odds);
-        } else if verdict.status == Status::None
-            && let Some(ratio) = self.held_out_errors_beyond_chance(&self.nominal.plain.fit)
-        {
-            verdict = held_out_differs(&odds, ratio);
-        }
-        verdict.calibrated = self.is_calibrated;
-        let augmented = match verdict.status {
-            Status::None | Status::Refit => self.nominal.plain.clone(),
-            _ => hypothesis,
-        };
-        Conclusion { fitted: all, singles, odds, verdict, augmented, left, together: found, other: None }
     }
 }

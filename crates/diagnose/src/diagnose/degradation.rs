@@ -81,14 +81,8 @@ impl Plan {
             && (!predicts || better(&gained_in_prediction(self, one, both)))
     }
 
-    /// Squared error saved on each judged record by simulating with another model than the one under diagnosis, sample by sample.
-    pub(super) fn saved_in_simulation(&self, fit: &Fit) -> Vec<Vec<f64>> {
-        let [before, after] = self.errors_before_and_after(fit).map(squared);
-        differences(&before, &after)
-    }
-
-    /// The same by what no record has of its own: a model with a zero or a wave free from record to record says nothing of these in
-    /// another one.
+    /// Squared error saved on each judged record by simulating with another model than the one under diagnosis, sample by sample, without what no record has
+    /// of its own: a model with a zero or a wave free from record to record says nothing of these in another one.
     fn saved_beside_own_paths(&self, fit: &Fit) -> Vec<Vec<f64>> {
         let lasting = |errors| squared(without_own_paths(&self.dataset, fit, &self.judged, errors));
         let [before, after] = self.errors_before_and_after(fit).map(lasting);

@@ -16,16 +16,13 @@ use crate::workers::Workers;
 pub(super) struct Evidence {
     /// Every effect whose fit is one of it: what is no cause by itself may still be one of two.
     pub(super) all: Vec<Hypothesis>,
-    /// Those that may be the cause, best first.
-    pub(super) singles: Vec<Hypothesis>,
-    /// The same with what is out, since it degrades held-out records by itself: it may still be one of two, and is a rival of the others.
+    /// The same without noise where the gap is systematic, best first.
     pub(super) ranked: Vec<Hypothesis>,
-    /// Whether what is out, since it degrades held-out records, follows the fit records better than all that are left: these, too, only
-    /// stand in for something else.
-    pub(super) outdone: bool,
+    /// Effects that held-out records, or what repeats with the input, refute as a single cause: one may still be one of two.
+    pub(super) refuted: Vec<Effect>,
     /// Whether the best of them gains what chance does not.
     pub(super) significant: bool,
-    /// The best of them, or the nominal model.
+    /// The best that is not refuted, or the nominal model.
     pub(super) best: Hypothesis,
     /// What it leaves.
     pub(super) tests: Option<Omnibus>,
@@ -65,28 +62,22 @@ impl Plan {
         evidence
     }
 
-    /// Compares the candidates on held-out records, drops those that cannot be the cause, and tests the remaining error of the best.
+    /// Compares the candidates on held-out records, and tests the remaining error of the best that these do not refute.
     fn weigh_in(&self, workers: &impl Workers, singles: Vec<Hypothesis>) -> Evidence {
-        let mut singles = self.one_of_each(workers, singles);
-        let all = singles.clone();
-        let significant =
-            singles.first().is_some_and(|s| s.bic() < self.nominal.plain.bic() - 0.5 * SIGNIFICANT);
-        let (mut outdone, mut ranked) = (false, Vec::new());
+        let all = self.one_of_each(workers, singles);
+        let significant = all.first().is_some_and(|s| s.bic() < self.nominal.plain.bic() - 0.5 * SIGNIFICANT);
+        let mut ranked = all.clone();
+        let mut refuted = Vec::new();
         if significant {
-            self.drop_noise_where_the_gap_is_systematic(&mut singles);
-            ranked.clone_from(&singles);
-            let first = ranked.first().map(|s| (s.effect_terms[0].effect, s.evidence()));
-            self.drop_what_held_out_records_refute(workers, &mut singles);
-            outdone = !self.dataset.criterion.simulates()
-                && first.zip(singles.first()).is_some_and(|((effect, evidence), left)| {
-                    let other = left.effect_terms[0].effect;
-                    let alike = other == effect || effect.confounded_effects().contains(&other);
-                    !effect.is_noise() && !alike && left.evidence() > evidence + SIGNIFICANT
-                });
+            self.drop_noise_where_the_gap_is_systematic(&mut ranked);
+            refuted = self.refuted(workers, &ranked);
+            let is_dropped = |effect: &Effect| ranked.iter().all(|s| s.effect_terms[0].effect != *effect);
+            refuted.extend(all.iter().map(|s| s.effect_terms[0].effect).filter(is_dropped));
         }
-        let best = singles.first().filter(|_| significant).unwrap_or(&self.nominal.plain).clone();
+        let stands = |s: &&Hypothesis| significant && !refuted.contains(&s.effect_terms[0].effect);
+        let best = all.iter().find(stands).unwrap_or(&self.nominal.plain).clone();
         let tests = omnibus(&self.dataset, &best.fit);
-        Evidence { all, singles, ranked, outdone, significant, best, tests, pair: None }
+        Evidence { all, ranked, refuted, significant, best, tests, pair: None }
     }
 
     fn attribution<'a, W: Workers>(&'a self, workers: &'a W) -> Attribution<'a, W> {
@@ -150,18 +141,6 @@ impl Plan {
 }
 
 impl Evidence {
-    /// The single effects that may be the cause, and behind them what degrades held-out records and follows the fit records less well than
-    /// the best: their rivals all the same.
-    pub(super) fn rivals(&self) -> Vec<(Effect, f64)> {
-        let of = |s: &Hypothesis| (s.effect_terms[0].effect, s.evidence());
-        let singles: Vec<(Effect, f64)> = self.singles.iter().map(of).collect();
-        let least = singles.first().map_or(f64::NEG_INFINITY, |best| best.1);
-        let is_out = |(effect, evidence): &(Effect, f64)| {
-            *evidence > least && singles.iter().all(|(known, _)| known != effect)
-        };
-        singles.iter().copied().chain(self.ranked.iter().map(of).filter(is_out)).collect()
-    }
-
     /// What the best effect leaves, where there is one.
     fn tests(&self) -> Option<&Omnibus> {
         self.tests.as_ref().filter(|_| self.significant)

@@ -108,17 +108,13 @@ impl Plan {
 
     /// What is worse on held-out records explains nothing, however well it follows those it was fitted to: a simulator that closes none
     /// of the gap, and whatever degrades a record beyond its error.
-    pub(super) fn drop_what_held_out_records_refute(
-        &self,
-        workers: &impl Workers,
-        singles: &mut Vec<Hypothesis>,
-    ) {
-        if self.dataset.criterion.simulates() {
-            singles.retain(|s| self.held_out_closure(&s.fit).is_none_or(|closure| closure > 0.0));
-        }
-        let degradation = workers.map(singles, |s| self.degrades_validation(s));
-        let mut degradation = degradation.into_iter();
-        singles.retain(|_| !degradation.next().unwrap_or_default());
+    pub(super) fn refuted(&self, workers: &impl Workers, singles: &[Hypothesis]) -> Vec<Effect> {
+        let is_refuted = |s: &Hypothesis| {
+            self.held_out_closure(&s.fit).is_some_and(|closure| closure <= 0.0) || self.degrades_validation(s)
+        };
+        let refuted = workers.map(singles, is_refuted);
+        let effects = singles.iter().map(|s| s.effect_terms[0].effect);
+        effects.zip(refuted).filter_map(|(effect, is_refuted)| is_refuted.then_some(effect)).collect()
     }
 
     /// Share of the gap that a model closes on the judged records, where models are compared as simulators and there is a
@@ -180,12 +176,6 @@ impl Plan {
     pub(super) fn gap(&self, fit: &Fit, resamples: usize) -> Gap {
         let draws = (self.settings.seed, resamples);
         measure(&self.dataset, &self.simulations(fit), self.noise_floor(fit), draws)
-    }
-
-    /// Share of the gap on the judged records that a model leaves, where there is a gap.
-    pub(super) fn gap_left(&self, fit: &Fit) -> Option<f64> {
-        let gap = self.gap(fit, 0);
-        (gap.before.estimate > 0.0).then(|| gap.after.estimate / gap.before.estimate)
     }
 
     /// Log score a sample on the held-out records: of one-step predictions, or of the simulation.

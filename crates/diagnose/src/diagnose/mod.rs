@@ -2,7 +2,6 @@
 
 mod analyses;
 mod attribute;
-mod classified;
 mod compared;
 mod degradation;
 mod evidence;
@@ -17,6 +16,7 @@ mod parameters;
 mod plan;
 mod refit;
 mod report;
+mod rig_evidence;
 mod sources;
 
 use switchback_model::rig::Rig;
@@ -28,10 +28,9 @@ use crate::workers::{Serial, Workers};
 
 /// Diagnoses the gap between a model and a rig.
 ///
-/// Identifies (or takes) the nominal model, fits every effect of the library together with it, ranks them by penalised
-/// likelihood, tests what the best leaves, and measures how far it closes the gap on the held-out records. Where nobody designed the records
-/// and no order is declared, a trained [posterior](crate::posterior) decides, and only the effects that it finds likely are fitted. A
-/// model that is given, a simulator or other records are compared value by value; of records that nobody designed the posterior decides about what is missing.
+/// Identifies the nominal model and asks a trained [posterior](crate::posterior) for the likeliest effects; fits these together with the model, joins their
+/// probabilities by the fits, and measures how far the likeliest closes the gap on the held-out records. A model that is given, a simulator or other
+/// records are compared value by value; of records that nobody designed the posterior decides about what is missing.
 ///
 /// # Errors
 /// [`DiagnoseError`] where nothing can be judged; what can be judged only in part becomes a

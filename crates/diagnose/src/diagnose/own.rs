@@ -4,9 +4,11 @@ use switchback_model::rig::Rig;
 
 use super::analyses::Analysis;
 use super::plan::Plan;
-use super::{classified, refit};
+use super::refit;
+use super::rig_evidence::RigEvidence;
 use crate::attribution::PairEffort;
 use crate::diagnosis::Diagnosis;
+use crate::effect::Effect;
 use crate::error::DiagnoseError;
 use crate::nominal::order::{Choice, Chosen, declared, of_structure, structure};
 use crate::phase::Phase;
@@ -15,7 +17,7 @@ use crate::settings::{Model, Settings};
 use crate::verdict::answer::Status;
 use crate::workers::Workers;
 
-/// By the posterior where nobody designed the records and no order is declared, else by rules.
+/// The structure of a model, the likeliest effects fitted with it, the verdict.
 pub(super) fn of_own_model(
     workers: &impl Workers,
     rig: &Rig,
@@ -24,60 +26,48 @@ pub(super) fn of_own_model(
     workers.begin(Phase::Nominal);
     let records = Dataset::new(rig)?;
     let declared = declared(rig, &Model::Identify)?;
-    match classified::classified(workers, rig, (&records, settings))? {
-        Some(diagnosis) => Ok(diagnosis),
-        None => by_rules(workers, rig, (&records, settings), declared),
-    }
-}
-
-/// The diagnosis by fits of every effect and by rules.
-fn by_rules(
-    workers: &impl Workers,
-    rig: &Rig,
-    (records, settings): (&Dataset, &Settings),
-    declared: Option<usize>,
-) -> Result<Diagnosis, DiagnoseError> {
+    let settings =
+        &with_colour_where_the_structure_is_known(settings, declared.is_some() || records.is_designed());
+    let evidence = &RigEvidence::new(rig, settings);
+    let choice = structure(workers, (rig, records.clone()), declared, settings)?;
     let plan = |chosen: Chosen| Plan::new(rig, &Model::Identify, settings, chosen);
-    let chosen = structure(workers, (rig, records.clone()), declared, settings)?;
-    let mut reported = analyse(workers, chosen, &plan)?;
-    if declared.is_none() {
-        reported = with_room_for_dynamics(workers, reported, (records, &plan))?;
+    let mut analysis = analysed(workers, choice, &plan, evidence)?;
+    if declared.is_none() && records.is_designed() {
+        analysis = with_room_for_dynamics(workers, analysis, (&records, &plan), evidence)?;
     }
-    Ok(reported.report(workers))
+    Ok(analysis.report(workers))
 }
 
-/// The analysis of one choice; of two, that one step ahead where it shows a cause with which no simulator is needed.
-fn analyse(
+/// Of records that nobody designed the colour of the noise belongs to the model; where the structure of the model is known it is a cause.
+fn with_colour_where_the_structure_is_known(settings: &Settings, is_known: bool) -> Settings {
+    let colour: Vec<Effect> =
+        Effect::ALL.into_iter().filter(|e| is_known && e.card().colours_noise).collect();
+    settings.clone().asking(&colour)
+}
+
+/// The analysis of one choice; of two the one that simulates better.
+fn analysed(
     workers: &impl Workers,
     choice: Choice,
     plan: &impl Fn(Chosen) -> Result<Plan, DiagnoseError>,
+    evidence: &RigEvidence<'_>,
 ) -> Result<Analysis, DiagnoseError> {
     let (mut steps, simulator) = match choice {
-        Choice::One(chosen) => return Ok(Analysis::run(workers, plan(chosen)?)),
-        Choice::Either(steps, simulator) => (plan(steps)?, simulator),
+        Choice::One(chosen) => return Analysis::run(workers, plan(chosen)?, evidence),
+        Choice::Either(steps, simulator) => (plan(steps)?, plan(simulator.chosen())?),
     };
-    steps.pair_effort = PairEffort::WhileHopeful;
-    let steps = Analysis::run(workers, steps);
-    let verdict = &steps.conclusion.verdict;
-    let reported = matches!(verdict.status, Status::Named | Status::Class);
-    // No simulator sees noise that is asked for.
-    let is_asked = verdict.effects.iter().any(|effect| steps.plan.settings.asked.contains(effect));
-    let is_needless =
-        reported && simulator.is_needless_beside(&steps.plan.dataset, &steps.conclusion.augmented.fit);
-    if is_asked || is_needless && !refit::shows_dynamics(verdict) {
+    if steps.weighs_likelihoods {
+        steps.pair_effort = PairEffort::WhileHopeful;
+    }
+    let steps = Analysis::run(workers, steps, evidence)?;
+    // What changes only the noise moves no simulation.
+    let moves_none = |(effect, _): &(Effect, f64)| effect.moves_no_simulation();
+    if steps.has_nothing_to_explain() || evidence.classification()?.effects().first().is_some_and(moves_none)
+    {
         return Ok(steps);
     }
-    let chosen = simulator.chosen();
-    // Dynamics that a simulator of another structure has without any effect are the machine's own.
-    if is_needless && !steps.does_the_same(&chosen) {
-        return Ok(steps);
-    }
-    let runs = Analysis::run(workers, plan(chosen)?);
-    // A simulator may be blind to an effect that it leaves alone.
-    Ok(match (verdict.status, runs.conclusion.verdict.status) {
-        (Status::Unexplained, Status::None) => steps,
-        _ => runs,
-    })
+    let runs = Analysis::run(workers, simulator, evidence)?;
+    Ok(if runs.has_nothing_to_explain() || runs.error() <= steps.error() { runs } else { steps })
 }
 
 /// The analysis on a nominal model with room for the machine's own dynamics, where one of those, or a delay, would be reported and a higher
@@ -87,6 +77,7 @@ fn with_room_for_dynamics(
     workers: &impl Workers,
     first: Analysis,
     (records, plan): (&Dataset, &impl Fn(Chosen) -> Result<Plan, DiagnoseError>),
+    evidence: &RigEvidence<'_>,
 ) -> Result<Analysis, DiagnoseError> {
     if !refit::shows_dynamics(&first.conclusion.verdict) {
         return Ok(first);
@@ -97,7 +88,7 @@ fn with_room_for_dynamics(
     let Some(chosen) = fitted.into_iter().flatten().find(|chosen| first.does_the_same(chosen)) else {
         return Ok(first);
     };
-    let again = Analysis::run(workers, plan(chosen)?);
+    let again = Analysis::run(workers, plan(chosen)?, evidence)?;
     let verdict = &again.conclusion.verdict;
     if refit::shows_dynamics(verdict) || verdict.status == Status::Unexplained {
         let conclusion = first.plan.refitted(first.conclusion, &again.plan);

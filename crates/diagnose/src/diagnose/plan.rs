@@ -10,8 +10,17 @@ use crate::error::DiagnoseError;
 use crate::export::Exporter;
 use crate::nominal::order::Chosen;
 use crate::nominal::structure::Structure;
+use crate::posterior::Classification;
 use crate::records::dataset::Dataset;
 use crate::settings::{Model, Settings};
+
+/// A rig unlike those that the posterior was trained on.
+const OUTSIDE: &str = "the records are unlike those that the posterior was trained on: farther from these than 99 of 100 rigs that were held out; its \
+                                  probabilities only rank, and nothing is named";
+
+/// A rig without evidence.
+const WITHOUT_EVIDENCE: &str = "the records show no system of which evidence could be had: before they were fitted all causes were taken to be as likely as each \
+                                other, and nothing is named";
 
 /// What is known before any effect is tried.
 #[derive(Debug)]
@@ -31,6 +40,9 @@ pub(super) struct Plan {
     pub(super) pair_effort: PairEffort,
     /// Whether the colour of the noise belongs to the model, and is no cause: of records that nobody designed.
     pub(super) owns_colour: bool,
+    /// Whether the structure of the model is known, so that likelihoods of its predictions are those of the machine: an order is declared, or experiments
+    /// were designed.
+    pub(super) weighs_likelihoods: bool,
     /// Whether probabilities were calibrated on records and models like these.
     pub(super) is_calibrated: bool,
     pub(super) limitations: Vec<String>,
@@ -62,6 +74,7 @@ impl Plan {
             None => nominal.runs(&dataset, &judged),
         };
         let pair_effort = if dataset.criterion.simulates() { PairEffort::Forward } else { PairEffort::Full };
+        let weighs_likelihoods = !dataset.criterion.simulates() && (declared || dataset.is_designed());
         let owns_colour =
             !declared && !dataset.is_designed() && !settings.asked.iter().any(|e| e.card().colours_noise);
         let exporter = Exporter::new(rig);
@@ -77,6 +90,7 @@ impl Plan {
             structure,
             pair_effort,
             owns_colour,
+            weighs_likelihoods,
             is_calibrated,
             limitations,
             exporter,
@@ -90,6 +104,12 @@ impl Plan {
         }
         self.nominal = nominal;
     }
+}
+
+/// Why no evidence counts, where that is so.
+pub(super) fn lacks(classification: &Classification) -> Option<String> {
+    let reason = if classification.rows == 0 { WITHOUT_EVIDENCE } else { OUTSIDE };
+    classification.is_outside().then(|| reason.to_owned())
 }
 
 /// The hold-out records; without any, the fit records, with a word about it.

@@ -1,4 +1,4 @@
-//! Whether the model under diagnosis lacks a cause or only the right parameters.
+//! Whether the model lacks a cause or only the right order.
 
 use super::degradation::differences;
 use super::plan::Plan;
@@ -8,7 +8,7 @@ use crate::likelihood::engine::Fit;
 use crate::nominal::order::Chosen;
 use crate::records::dataset::Dataset;
 use crate::simulation::simulate::free_run;
-use crate::verdict::answer::{Status, Verdict};
+use crate::verdict::answer::Verdict;
 use crate::verdict::decide::{parameters_are_off, unresolved};
 
 /// Whether a verdict names, alone or among others, an effect that a higher order or another delay could describe as well.
@@ -22,34 +22,6 @@ pub(super) fn shows_a_delay(verdict: &Verdict) -> bool {
 }
 
 impl Plan {
-    /// Whether the same model, identified anew, closes as much of the gap of one that was given as the candidate of a verdict does:
-    /// on the judged records it saves what the other one does, but for the error of the difference.
-    ///
-    /// Where the candidate is none of the candidates, nothing may be left of the gap.
-    pub(super) fn only_parameters_are_off(&self, status: Status, explained: &Fit) -> bool {
-        if self.given.is_none() {
-            return false;
-        }
-        let anew = &self.nominal.plain.fit;
-        let gap = self.gap(anew, self.settings.resamples);
-        let saves = self.mean(&self.saved_in_simulation(anew), anew).is_some_and(|m| m.low > 0.0);
-        let errors = |fit: &Fit| {
-            self.squared_errors(|number| {
-                free_run(&self.dataset, fit, number, &self.dataset.scaled_records[number])
-            })
-        };
-        let adds = || {
-            let saved = differences(&errors(anew), &errors(explained));
-            self.mean(&saved, explained).is_some_and(|m| m.low > 0.0)
-        };
-        let suffices = match status {
-            Status::None => true,
-            Status::Unexplained => gap.after.ci90[0] <= 0.0,
-            _ => !adds(),
-        };
-        gap.before.ci90[0] > 0.0 && saves && suffices
-    }
-
     /// Whether a nominal model of another structure does as well on the judged records as a candidate, but for the error of the
     /// difference.
     pub(super) fn does_the_same(&self, chosen: &Chosen, explained: &Fit) -> bool {

@@ -7,10 +7,9 @@ use switchback_model::reversal::ReversalRule;
 use switchback_model::rig::{Rig, Usage};
 use switchback_model::system::{Borders, LinearPart, Sensor, System};
 
-use super::classified::OUTSIDE;
 use super::given_model::GivenModel;
 use super::own::of_own_model;
-use super::plan::{Plan, judged_scaled_records};
+use super::plan::{Plan, judged_scaled_records, lacks};
 use super::report::{Conclusion, Other};
 use crate::diagnosis::{Candidate, Diagnosis};
 use crate::differences::{
@@ -132,9 +131,7 @@ fn of_own_nominal(
 /// The diagnosis with the verdict of the posterior.
 fn with(diagnosis: Diagnosis, classification: Classification) -> Diagnosis {
     let mut limitations = diagnosis.limitations;
-    if classification.is_outside() {
-        limitations.push(OUTSIDE.to_owned());
-    }
+    limitations.extend(lacks(&classification));
     let verdict = classification.verdict();
     // Where the source misses more than the noise, something is missing.
     let verdict = match verdict.status {

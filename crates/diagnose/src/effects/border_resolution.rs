@@ -9,7 +9,7 @@ use crate::effect::{Effect, Stage};
 use crate::model::borders::Grid;
 
 pub(super) const CARD: Card =
-    Card { flexible: true, catch_all: true, lies_in_the_grid: true, ..Card::of(Stage::Operator, variants) };
+    Card { catch_all: true, lies_in_the_grid: true, ..Card::of(Stage::Operator, variants) };
 
 fn variants(scene: &Scene<'_>) -> Vec<Variant> {
     let knots = scene.fit.grid.knots.clone().map(|knots| {

@@ -22,7 +22,7 @@ pub(crate) struct Card {
     /// `diagnose`, `verdict`).
     pub(crate) noise: bool,
     /// It gives the noise a spectrum of any shape. Another effect of the dynamics may hide behind such noise; where a gap remains with it,
-    /// another cause is likely (`attribution::pairs`, `diagnose`, `verdict::odds`).
+    /// another cause is likely (`attribution::pairs`, `diagnose`).
     pub(crate) colours_noise: bool,
     /// It makes rare large errors. Such errors also describe what any inexact law misses occasionally, so that they are a cause only where they
     /// do not depend on the input (`attribution::pairs`, `diagnose`).
@@ -35,12 +35,9 @@ pub(crate) struct Card {
     pub(crate) misreads: bool,
     /// The sensor rounds. Where its steps are coarse the tests see nothing else, and simulations are as good without it (`diagnose`).
     pub(crate) rounds: bool,
-    /// It depends on time, or on a phase that differs from record to record: its fitted parameters need not hold in other records (`diagnose`,
-    /// `verdict::odds`).
+    /// It depends on time, or on a phase that differs from record to record: its fitted parameters need not hold in other records (`diagnose`).
     pub(crate) of_its_record: bool,
 
-    /// Its laws are flexible enough to imitate other effects almost exactly (`verdict::odds`).
-    pub(crate) flexible: bool,
     /// It may hide the dynamics altogether, so that they are identified anew together with it (`attribution::successive_halving`).
     pub(crate) dominates_dynamics: bool,
     /// It may describe the remaining error of another effect whose law is inexact. Where it gains little beside that effect it is a correction
@@ -53,9 +50,6 @@ pub(crate) struct Card {
     pub(crate) lies_in_the_grid: bool,
     /// Which larger nominal model can describe it. That model is tried before the effect is named (`diagnose::refit`).
     pub(crate) room: Option<Room>,
-    /// Largest fraction of the one-step gap that remains where it is the cause. Fitted to simulated rigs with known causes, some of which follow
-    /// other laws than the candidates (`verdict::odds`).
-    pub(crate) most_left: f64,
 
     /// Whether a fit of it describes coloured noise and nothing else (`attribution::explain`).
     pub(crate) is_noise_in_disguise: fn(&Fit) -> bool,
@@ -88,9 +82,6 @@ pub(crate) enum Room {
     Delay,
 }
 
-/// Largest fraction of the gap that remains with the right cause, unless its card says otherwise.
-const MOST_LEFT: f64 = 0.45;
-
 impl Card {
     /// The card of an effect about which nothing is special.
     pub(super) const fn of(stage: Stage, laws: fn(&Scene<'_>) -> Vec<Variant>) -> Self {
@@ -105,13 +96,11 @@ impl Card {
             misreads: false,
             rounds: false,
             of_its_record: false,
-            flexible: false,
             dominates_dynamics: false,
             follows: None,
             catch_all: false,
             lies_in_the_grid: false,
             room: None,
-            most_left: MOST_LEFT,
             is_noise_in_disguise: |_| false,
             freed: |_, _| None,
             renamed: &[],

@@ -15,7 +15,6 @@ pub(super) const CARD: Card = Card {
     confounded_effects: &[Effect::OutputNoise, Effect::InputNoise],
     noise: true,
     colours_noise: true,
-    flexible: true,
     dominates_dynamics: true,
     follows: Some(Follows::Anything),
     ..Card::of(Stage::Disturbance, variants)

@@ -21,7 +21,6 @@ pub(super) const CARD: Card = Card {
     dominates_dynamics: true,
     room: Some(Room::Order),
     // One pole before the plant is the same on every machine: the cause leaves nothing, delays and lasting errors do.
-    most_left: 0.02,
     reported_first: |reading| {
         let pole = reading.searched.iter().find(|o| o.name == "pole");
         pole.and_then(time_constant).into_iter().collect()

@@ -25,7 +25,6 @@ use crate::records::dataset::Dataset;
 pub(super) const CARD: Card = Card {
     confounded_effects: &[Effect::BorderWear, Effect::StepChange],
     of_its_record: true,
-    flexible: true,
     dominates_dynamics: true,
     freed: free_course,
     ..Card::of(Stage::Dynamics, variants)

@@ -19,7 +19,6 @@ pub(super) const CARD: Card = Card {
     follows: Some(Follows::Anything),
     catch_all: true,
     // They come whatever the machine does: nothing of them hangs on its state.
-    most_left: 0.02,
     reported_first: share_and_size,
     ..Card::of(Stage::Disturbance, variants)
 };

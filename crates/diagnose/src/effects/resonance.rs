@@ -17,11 +17,9 @@ use switchback_model::spectrum::strongest_lines;
 
 pub(super) const CARD: Card = Card {
     confounded_effects: &[Effect::ExtraPole, Effect::InputDelay],
-    flexible: true,
     follows: Some(Follows::Steps),
     room: Some(Room::Order),
     // Two poles and a zero that are free follow the lines, lags and frictions of others to a good part.
-    most_left: 0.21,
     is_noise_in_disguise: is_coloured_noise,
     ..Card::of(Stage::Dynamics, variants)
 };

@@ -15,7 +15,6 @@ use crate::model::augmented::{Clock, EquationColumn};
 pub(super) const CARD: Card = Card {
     confounded_effects: &[Effect::RecordOffset],
     of_its_record: true,
-    flexible: true,
     dominates_dynamics: true,
     ..Card::of(Stage::Sensor, variants)
 };

@@ -18,7 +18,6 @@ use crate::model::sensor_polynomial::SensorPolynomial;
 pub(super) const CARD: Card = Card {
     confounded_effects: &[Effect::SensorSaturation],
     misreads: true,
-    flexible: true,
     follows: Some(Follows::Steps),
     ..Card::of(Stage::Sensor, variants)
 };

@@ -3,6 +3,7 @@
 use super::decision::{Decision, Outcome, Thresholds, decide};
 use super::error::PosteriorError;
 use super::leading_fit::LeadingFit;
+use super::likelihoods::{Fits, Likelihoods, Probabilities, Weights};
 use super::prior::Prior;
 use super::weights::Posterior;
 use crate::comparison::Compared;
@@ -28,7 +29,7 @@ pub struct Cause {
 /// Probabilities of the causes of a rig's gap, which sum to one with those that nothing is missing and that it is none of these.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Classification {
-    /// Rigs that the posterior was trained on.
+    /// Rigs that the posterior was trained on; none where evidence was not asked, or the records show none, and the prior stands for it.
     pub rows: usize,
     /// How common causes were taken to be.
     pub prior: Prior,
@@ -44,6 +45,8 @@ pub struct Classification {
     pub thresholds: Thresholds,
     /// The fit that joined the probabilities, where one leads.
     pub leading: Option<LeadingFit>,
+    /// The fits whose likelihoods joined them, where the structure of the model is known.
+    pub likelihoods: Option<Likelihoods>,
 }
 
 /// Share of the rigs held out in training beyond which a rig is not one of their kind.
@@ -95,7 +98,33 @@ impl Classification {
             novelty: posterior.novelty.quantile(&row),
             thresholds: posterior.thresholds,
             leading: None,
+            likelihoods: None,
         })
+    }
+
+    /// Of a rig without evidence: the prior, by which all effects that are considered are as likely as each other.
+    pub(crate) fn of_prior(settings: &Settings) -> Self {
+        let posterior = settings.posterior();
+        let prior = settings.prior.unwrap_or(posterior.prior);
+        let considered = settings.effects.iter().filter(|effect| !settings.is_no_cause(**effect));
+        let even = Probabilities::of_prior(prior, considered.map(|effect| (Some(*effect), true)));
+        let cause = |(effect, probability): &(Option<Effect>, f64)| Cause {
+            name: effect.map_or("", Effect::name).to_owned(),
+            effect: *effect,
+            probability: *probability,
+            gain: None,
+        };
+        Self {
+            rows: 0,
+            prior,
+            causes: even.causes.iter().map(cause).collect(),
+            none: even.none,
+            none_of_these: even.none_of_these,
+            novelty: 0.0,
+            thresholds: posterior.thresholds,
+            leading: None,
+            likelihoods: None,
+        }
     }
 
     /// The fit that leads in a comparison, if one does.
@@ -123,9 +152,39 @@ impl Classification {
         Self { none, none_of_these, leading: Some(leading), ..self }
     }
 
-    /// Whether the rig is unlike those that the posterior was trained on.
+    /// The probabilities joined by the likelihoods of fits. Evidence of a rig unlike those of the training says nothing: the prior stands for it.
+    #[must_use]
+    pub(crate) fn joined_by_likelihoods(mut self, fits: Fits) -> Self {
+        let before = match self.is_outside() {
+            true => Probabilities::of_prior(
+                self.prior,
+                self.causes.iter().map(|cause| (cause.effect, cause.probability > 0.0)),
+            ),
+            false => Probabilities {
+                causes: self.causes.iter().map(|cause| (cause.effect, cause.probability)).collect(),
+                none: self.none,
+                none_of_these: self.none_of_these,
+            },
+        };
+        let likelihoods = Likelihoods { fits, before };
+        let Probabilities { causes, none, none_of_these } = likelihoods.joined(&Weights::FITTED);
+        for (cause, (_, probability)) in self.causes.iter_mut().zip(causes) {
+            cause.probability = probability;
+        }
+        self.causes.sort_by(|x, y| y.probability.total_cmp(&x.probability));
+        Self { none, none_of_these, likelihoods: Some(likelihoods), ..self }
+    }
+
+    /// Whether no evidence counts, since there is none or the rig is unlike those that the posterior was trained on, and no likelihoods of a model of a known
+    /// structure joined.
     pub fn is_outside(&self) -> bool {
-        self.novelty >= OUTSIDE
+        (self.rows == 0 || self.novelty >= OUTSIDE) && self.likelihoods.is_none()
+    }
+
+    /// The effect whose fit leads, or the likeliest by the likelihoods of all fits.
+    pub(crate) fn confirmed(&self) -> Option<Effect> {
+        let likeliest = || self.likelihoods.as_ref().and_then(|_| Some(self.effects().first()?.0));
+        self.leading.map(|leading| leading.effect).or_else(likeliest)
     }
 
     /// Effects that a diagnosis can name, likeliest first.
@@ -149,12 +208,13 @@ impl Classification {
                 .sum::<f64>()
     }
 
-    /// The effects that are fitted: until they have that probability, and no more than so many.
+    /// The effects that are fitted: until they have the probability of the settings, and no more than so many; all of them without evidence.
     pub(crate) fn head(&self, settings: &Settings) -> Vec<Effect> {
         let mut mass = 0.0;
         let mut head = Vec::new();
-        for (effect, p) in self.effects().into_iter().take(settings.most_fitted) {
-            if mass >= settings.head || p <= 0.0 {
+        let most = if self.rows == 0 { usize::MAX } else { settings.most_fitted };
+        for (effect, p) in self.effects().into_iter().take(most) {
+            if self.rows > 0 && mass >= settings.head || p <= 0.0 {
                 break;
             }
             mass += p;
@@ -219,6 +279,7 @@ mod tests {
             novelty,
             thresholds: Thresholds::default(),
             leading: None,
+            likelihoods: None,
         }
     }
 

@@ -1,6 +1,5 @@
-//! From candidates to calibrated probabilities, and from these to a verdict.
+//! The answer, and what is not decided by the posterior alone.
 
 pub(crate) mod answer;
 pub(crate) mod decide;
 pub(crate) mod odds;
-pub(crate) mod simulators;

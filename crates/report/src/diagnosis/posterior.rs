@@ -11,7 +11,7 @@ use switchback_io::output::{columns, wrapped};
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct Posterior {
-    /// Rigs that it was trained on.
+    /// Rigs that it was trained on; 0 where fits decide without evidence, or there is none: then the prior stands for it.
     pub examples: usize,
     /// How common causes are taken to be.
     pub prior: Prior,
@@ -25,7 +25,7 @@ pub(crate) struct Posterior {
     #[serde(deserialize_with = "switchback_io::input::nullable::number")]
     #[schemars(range(min = 0, max = 1))]
     pub probability_unexplained: f64,
-    /// Share of the rigs held out in training that lie nearer to its population than this rig.
+    /// Share of the rigs held out in training that lie nearer to its population than this rig; 0 without evidence.
     #[serde(deserialize_with = "switchback_io::input::nullable::number")]
     #[schemars(range(min = 0, max = 1))]
     pub novelty: f64,
@@ -86,18 +86,13 @@ const LISTED: usize = 6;
 
 /// The likeliest causes, each with its probability and the likelihood that speaks for it.
 pub(super) fn words(classification: &Classification) -> String {
-    let prior = classification.prior;
     let head = format!(
-        "the verdict is that of a posterior trained on {} rigs whose cause is known ({} % have one of the effects, {} % nothing, {} % another \
-         cause): nothing is missing with probability {}, it is none of these causes with {}. Of rigs held out in training {} % lie nearer to \
-         the others than this one does. The likeliest causes, with what each gains as maximum likelihood",
-        classification.rows,
-        whole_percent(100.0 * prior.effect),
-        whole_percent(100.0 * prior.none),
-        whole_percent(100.0 * prior.none_of_these),
+        "{}: nothing is missing with probability {}, it is none of these causes with {}. {}The likeliest causes, with what evidence shows that each gains as \
+         maximum likelihood",
+        basis(classification),
         probability(classification.none),
         probability(classification.none_of_these),
-        whole_percent(100.0 * classification.novelty),
+        distance(classification),
     );
     let mut rows = vec![["cause".to_owned(), "probability".to_owned(), "nats a sample".to_owned()]];
     for cause in classification.causes.iter().take(LISTED) {
@@ -105,6 +100,34 @@ pub(super) fn words(classification: &Classification) -> String {
         rows.push([cause.name.replace('_', " "), probability(cause.probability), gain]);
     }
     format!("\n{}{}", wrapped(&head, ""), columns(&rows))
+}
+
+/// What the probabilities rest on.
+fn basis(classification: &Classification) -> String {
+    let prior = classification.prior;
+    let shares = format!(
+        "{} % have one of the effects, {} % nothing, {} % another cause",
+        whole_percent(100.0 * prior.effect),
+        whole_percent(100.0 * prior.none),
+        whole_percent(100.0 * prior.none_of_these)
+    );
+    let before = match classification.rows {
+        0 => format!("a prior by which {shares}"),
+        rows => format!("a posterior trained on {rows} rigs whose cause is known ({shares})"),
+    };
+    match classification.likelihoods {
+        Some(_) => format!("the verdict is that of the likelihoods of all fits, joined with {before}"),
+        None => format!("the verdict is that of {before}"),
+    }
+}
+
+/// How far the rig lies from the training population.
+fn distance(classification: &Classification) -> String {
+    if classification.rows == 0 {
+        return String::new();
+    }
+    let nearer = whole_percent(100.0 * classification.novelty);
+    format!("Of rigs held out in training {nearer} % lie nearer to the others than this one does. ")
 }
 
 impl KnownCause {

@@ -158,8 +158,12 @@ fn together(pair: &Pair) -> Markup {
 }
 
 fn posterior(posterior: &Posterior) -> Markup {
+    let basis = match posterior.examples {
+        0 => "The likelihoods of all fits, joined with a prior, say".to_owned(),
+        rigs => format!("A posterior trained on {rigs} rigs with known causes, joined by the fits, says"),
+    };
     let mut table = Table::new(
-        "What the verdict rests on: a posterior trained on rigs with known causes",
+        "What the verdict rests on: probabilities of causes",
         ["cause", "probability", "gain, nats a sample"],
     );
     for cause in posterior.causes.iter().take(LISTED) {
@@ -173,7 +177,7 @@ fn posterior(posterior: &Posterior) -> Markup {
     html! {
         h3 { "What the verdict rests on" }
         p {
-            "A posterior trained on " (posterior.examples) " rigs with known causes says, with probabilities: nothing is missing "
+            (basis) ", with probabilities: nothing is missing "
             (probability(posterior.probability_none)) ", none of these " (probability(posterior.probability_unexplained))
             ". The gain is that of the log-likelihood where the cause is fitted together with the model."
         }
