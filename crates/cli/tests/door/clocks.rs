@@ -12,7 +12,7 @@ fn noise() -> impl FnMut() -> f64 {
 }
 
 #[test]
-fn stamps_that_shake_about_even_samples_are_told_from_uneven_samples() {
+fn stamps_that_shake_about_even_samples_are_distinguished_from_uneven_samples() {
     for shake in [0.03, 0.3] {
         let mut noise = noise();
         let offsets: Vec<f64> = (0..SAMPLES).map(|_| 0.01 * shake * noise()).collect();

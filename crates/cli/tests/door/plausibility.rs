@@ -3,7 +3,7 @@
 use super::*;
 
 #[test]
-fn records_in_other_units_are_told_with_the_factor() {
+fn records_in_other_units_are_reported_with_the_factor() {
     let metres = table("time,travel,force", |_, t, v, y| format!("{t},{},{y}", v / 1000.0));
     let bench = Bench::new().with("a.csv", table("time,travel,force", |_, t, v, y| format!("{t},{v},{y}")));
     let loaded = bench.with("b.csv", metres).load(&["a.csv", "b.csv"]).expect("good files");
@@ -15,7 +15,7 @@ fn records_in_other_units_are_told_with_the_factor() {
 }
 
 #[test]
-fn strokes_that_are_all_alike_are_told() {
+fn strokes_that_are_all_alike_are_reported() {
     let sine = |k: usize| 10.0 * (0.1 * k as f64).sin();
     let text = table("time,travel,force", |k, t, _, y| format!("{t},{},{}", sine(k), y + sine(k)));
     let reported = load(text, &[]).reported.to_string();
