@@ -26,7 +26,7 @@ impl Plan {
         workers: &impl Workers,
         evidence: &RigEvidence<'_>,
     ) -> Result<(Conclusion, Classification), PosteriorError> {
-        match self.weighs_likelihoods {
+        match self.weighs_likelihoods() {
             true => self.by_likelihoods(workers, evidence),
             false => Ok(self.by_evidence(workers, evidence.classification()?)),
         }

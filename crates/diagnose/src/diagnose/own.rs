@@ -56,7 +56,7 @@ fn analysed(
         Choice::One(chosen) => return Analysis::run(workers, plan(chosen)?, evidence),
         Choice::Either(steps, simulator) => (plan(steps)?, plan(simulator.chosen())?),
     };
-    if steps.weighs_likelihoods {
+    if steps.weighs_likelihoods() {
         steps.pair_effort = PairEffort::WhileHopeful;
     }
     let steps = Analysis::run(workers, steps, evidence)?;

@@ -40,9 +40,6 @@ pub(super) struct Plan {
     pub(super) pair_effort: PairEffort,
     /// Whether the colour of the noise belongs to the model, and is no cause: of records that nobody designed.
     pub(super) owns_colour: bool,
-    /// Whether the structure of the model is known, so that likelihoods of its predictions are those of the machine: an order is declared, experiments
-    /// were designed, or the colour of noise is asked for.
-    pub(super) weighs_likelihoods: bool,
     /// Whether probabilities were calibrated on records and models like these.
     pub(super) is_calibrated: bool,
     pub(super) limitations: Vec<String>,
@@ -76,7 +73,6 @@ impl Plan {
         let pair_effort = if dataset.criterion.simulates() { PairEffort::Forward } else { PairEffort::Full };
         let owns_colour =
             !declared && !dataset.is_designed() && !settings.asked.iter().any(|e| e.card().colours_noise);
-        let weighs_likelihoods = !dataset.criterion.simulates() && !owns_colour;
         let exporter = Exporter::new(rig);
         let holds_out = dataset.scaled_records.iter().any(|t| !t.is_fit());
         let is_calibrated = declared && holds_out && given.is_none() && !dataset.criterion.simulates();
@@ -90,11 +86,16 @@ impl Plan {
             structure,
             pair_effort,
             owns_colour,
-            weighs_likelihoods,
             is_calibrated,
             limitations,
             exporter,
         })
+    }
+
+    /// Whether the structure of the model is known, so that likelihoods of its predictions are those of the machine: an order is declared, experiments
+    /// were designed, or the colour of noise is asked for.
+    pub(super) fn weighs_likelihoods(&self) -> bool {
+        !self.owns_colour && !self.dataset.criterion.simulates()
     }
 
     /// Founds the diagnosis on another optimum of the nominal model.
