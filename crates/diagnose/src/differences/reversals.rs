@@ -1,6 +1,6 @@
-//! Fits of systems with a law that moves reversals.
+//! Fits of systems on many knots, and with a law that moves reversals.
 
-use switchback_identify::record::{Criterion, Effort, Stretch, fit};
+use switchback_identify::record::{Chord, Criterion, Effort, Stretch, fit};
 use switchback_model::system::{Quantity, Scale, System};
 
 /// Least moves tried, as shares of the median move of the input between samples: to report, to rank candidates, and in between.
@@ -11,7 +11,35 @@ const MOST_MOVES: usize = 60;
 /// Fit of everything else after such a move.
 const AFTER_A_MOVE: Effort = Effort { iterations: 3, tolerance: 1e-3 };
 
-/// [`fit`], and where a free quantity moves reversals a search by finite moves of it.
+/// Before a fit to the end.
+const BEFORE_THE_END: Effort = Effort { iterations: 12, tolerance: 1e-5 };
+
+/// [`fit`] with derivatives by knots taken at the start alone: knots are many, and the run is linear in them at any linear part. A fit to the end goes on from
+/// there with all derivatives anew.
+pub(super) fn fit_on_knots(
+    start: &System,
+    quantities: &[Quantity],
+    stretches: &[Stretch],
+    context: (&Criterion, &Scale),
+    effort: Effort,
+) -> (System, f64) {
+    let (knots, others) = knots_and_others(quantities);
+    if knots.is_empty() || others.is_empty() {
+        return fit(start, quantities, stretches, context, effort);
+    }
+    let chord = Chord::of(start, &knots, stretches, context);
+    if effort != Effort::FINAL {
+        return chord.fit(start, &others, effort);
+    }
+    let (near, _) = chord.fit(start, &others, BEFORE_THE_END);
+    fit(&near, quantities, stretches, context, effort)
+}
+
+fn knots_and_others(quantities: &[Quantity]) -> (Vec<Quantity>, Vec<Quantity>) {
+    quantities.iter().partition(|q| matches!(q, Quantity::Knot(_)))
+}
+
+/// [`fit_on_knots`], and where a free quantity moves reversals a search by finite moves of it.
 ///
 /// A play moves reversals by whole samples: the deviance is a sawtooth over it, and a derivative leads to the foot of the nearest tooth alone. Moves either
 /// way, from that of the input between two samples on and halved where neither gains, each followed by a fit, cross the teeth: the pattern search of
@@ -23,12 +51,16 @@ pub(super) fn fit_across_reversals(
     context: (&Criterion, &Scale),
     effort: Effort,
 ) -> (System, f64) {
-    let (mut system, mut deviance) = fit(start, quantities, stretches, context, effort);
+    let (mut system, mut deviance) = fit_on_knots(start, quantities, stretches, context, effort);
     let scale = context.1;
     let precision = [Effort::FINAL, Effort::SEARCH].iter().position(|known| *known == effort).unwrap_or(2);
     let least_move = LEAST_MOVES[precision] * scale.speed;
+    let (knots, others) = knots_and_others(quantities);
     for quantity in quantities.iter().filter(|q| moves_reversals(start, **q)) {
         let mut reach = scale.speed;
+        let derivatives_at =
+            |system: &System| (!knots.is_empty()).then(|| Chord::of(system, &knots, stretches, context));
+        let mut chord = derivatives_at(&system);
         for _ in 0..MOST_MOVES {
             if reach < least_move {
                 break;
@@ -36,10 +68,14 @@ pub(super) fn fit_across_reversals(
             let value = quantity.value(&system);
             let tried = [value - reach, value + reach].map(|value| quantity.set(&system, value));
             let sound = tried.iter().filter(|moved| moved.is_sound(scale));
-            let fits = sound.map(|moved| fit(moved, quantities, stretches, context, AFTER_A_MOVE));
+            let fits = sound.map(|moved| match &chord {
+                Some(chord) => chord.fit(moved, &others, AFTER_A_MOVE),
+                None => fit(moved, quantities, stretches, context, AFTER_A_MOVE),
+            });
             match fits.min_by(|x, y| x.1.total_cmp(&y.1)) {
                 Some((best, least)) if least < (1.0 - LEAST_GAIN) * deviance => {
                     (system, deviance) = (best, least);
+                    chord = derivatives_at(&system);
                 }
                 _ => reach *= 0.5,
             }

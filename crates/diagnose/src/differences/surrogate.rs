@@ -1,7 +1,7 @@
 //! A system in place of a source of which only predictions are known.
 
 use super::errors::errors;
-use super::reversals::{fit_across_reversals, moves_reversals, profiled};
+use super::reversals::{fit_across_reversals, fit_on_knots, moves_reversals, profiled};
 use crate::evidence::{behind, nominal};
 use crate::workers::Workers;
 use nalgebra::{DMatrix, DVector};
@@ -9,7 +9,7 @@ use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use rand_distr::StandardNormal;
 use switchback_identify::free::FreeError;
-use switchback_identify::record::{Criterion, Effort, Sensitivities, Stretch, fit};
+use switchback_identify::record::{Criterion, Effort, Sensitivities, Stretch};
 use switchback_model::record::Record;
 use switchback_model::reversal::{ReversalRule, Timing};
 use switchback_model::system::{LAWS, Law, LinearPart, Quantity, Scale, System, Term, every_law, price};
@@ -124,7 +124,8 @@ impl<W: Workers> Search<'_, W> {
         let context = (&self.criterion, &self.scale);
         for _ in 0..MOST_HALVINGS {
             let start = self.refined(&system, 0.5);
-            let (finer, _) = fit(&start, &Quantity::coordinates(&start), self.stretches, context, STEP);
+            let (finer, _) =
+                fit_on_knots(&start, &Quantity::coordinates(&start), self.stretches, context, STEP);
             // Knots are many, and hardly move with the effects.
             let terms: Vec<Quantity> =
                 (0..finer.terms.len()).flat_map(|k| Quantity::of_term(&finer, k)).collect();
