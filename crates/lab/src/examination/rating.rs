@@ -132,11 +132,12 @@ impl<'c> Asked<'c> {
             return None;
         }
         let holds = match self.answer.reply.status {
-            "none" | "refit" => self.case.fault.is_none(),
+            "none" | "refit" | "parameters" => self.case.fault.is_none(),
             "unexplained" => self.case.kind == Kind::Outside,
             "named" => rating == Rating::Exact,
-            "class" | "ambiguous" => {
-                self.truth().is_some_and(|truth| self.answer.reply.said().contains(&truth))
+            // That the cause is among these.
+            "class" | "ambiguous" | "shortlist" => {
+                self.truth().is_some_and(|truth| self.answer.reply.listed().contains(&truth))
             }
             _ => false,
         };

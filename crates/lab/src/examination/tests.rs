@@ -311,6 +311,23 @@ fn a_fault_that_is_not_named_may_be_guessed_or_listed() {
 }
 
 #[test]
+fn a_list_claims_that_the_fault_is_among_its_effects() {
+    let share = |design, cases: &[Case]| match &scores(design, cases).claims.bins[..] {
+        [bin] => bin.held.value(),
+        _ => None,
+    };
+    let lists = [&["creep", "backlash"][..], &["creep", "outliers"]];
+    let listed = lists.map(|effects| injected(answered("shortlist", effects)));
+    assert_eq!(share(Design::Field, &listed), Some(0.5));
+    let drawn = lists.map(|effects| drawn(Kind::Injected, &["backlash"], "shortlist", effects));
+    assert_eq!(share(Design::Laboratory, &drawn), Some(0.5));
+    // Values that are off, and nothing missing.
+    let off = || answered("parameters", &[]);
+    let cases = [injected(off()), case(Kind::Bare, "made-2", &[], off())];
+    assert_eq!(share(Design::Field, &cases), Some(0.5));
+}
+
+#[test]
 fn calibration_is_judged_against_perfect_claims() {
     // Claims of 0.9 of which nine in ten hold: no error, where chance alone would show some.
     let reported =

@@ -78,7 +78,9 @@ impl Case {
     pub(crate) fn verdict_holds(&self) -> bool {
         match self.reply().status {
             "named" => self.exact(),
-            "class" | "ambiguous" => self.truth().iter().any(|t| self.reply().class.contains(t)),
+            "class" | "ambiguous" | "shortlist" => {
+                self.truth().iter().any(|t| self.reply().class.contains(t))
+            }
             status => self.is_rightly_silent(status),
         }
     }
