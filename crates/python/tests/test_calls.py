@@ -26,8 +26,14 @@ def bench() -> sb.Rig:
 
 def workers() -> int:
     """Threads of calls that are still at work."""
-    names = [(task / "comm").read_text().strip() for task in Path("/proc/self/task").iterdir()]
-    return names.count("switchback")
+
+    def name(task: Path) -> str:
+        try:
+            return (task / "comm").read_text().strip()
+        except (FileNotFoundError, ProcessLookupError):
+            return ""  # It ended since it was listed.
+
+    return [name(task) for task in Path("/proc/self/task").iterdir()].count("switchback")
 
 
 LONG_STUDY = {"replicates": 10_000_000}
