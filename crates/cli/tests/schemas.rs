@@ -10,6 +10,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::thread;
+use switchback_diagnose::Status;
 use switchback_io::output::schema_text;
 use switchback_lab::selftest::{Figure, Finding, json as selftest_json};
 use switchback_study::foreign::Answer;
@@ -115,6 +116,15 @@ fn check(written: &[Written]) {
     let layouts = Layouts::read();
     let wrong: Vec<String> = written.iter().flat_map(|one| layouts.complaints(one)).collect();
     assert!(wrong.is_empty(), "\n{}\n", wrong.join("\n"));
+}
+
+/// This schema is kept by hand.
+#[test]
+fn a_case_may_have_every_answer() {
+    let schema = &schemas()["switchback/case/1"];
+    let names = &schema["$defs"]["reply"]["properties"]["status"]["enum"];
+    let known: BTreeSet<&str> = names.as_array().expect("names").iter().filter_map(Value::as_str).collect();
+    assert_eq!(known, Status::ALL.into_iter().map(Status::name).chain(["failed"]).collect());
 }
 
 /// What a command prints.

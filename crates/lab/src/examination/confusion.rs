@@ -2,27 +2,26 @@
 
 use super::table::csv;
 use crate::generate::EFFECTS;
+use switchback_diagnose::Status;
 
 /// Counts of answers (columns) by truth (rows).
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Confusion {
     /// Truths: every effect where it is large, then `none` and `outside`.
     pub rows: Vec<&'static str>,
-    /// Answers: every effect named alone, then `several`, `class`, `ambiguous`, `none`, in the field `refit` where parameters may be all that
-    /// has changed, `unexplained`, `failed`.
+    /// Answers: every effect named alone, then `several`, every other [`Status`], and `failed`.
     pub columns: Vec<&'static str>,
     /// Counts, a row a truth.
     pub counts: Vec<Vec<usize>>,
 }
 
 impl Confusion {
-    /// Counts truths with what was said of them; a truth that has no row is left out. `rest` are the answers that name no single effect.
-    pub(crate) fn of(
-        answers: impl Iterator<Item = (&'static str, &'static str)>,
-        rest: &[&'static str],
-    ) -> Self {
+    /// Counts truths with what was said of them; a truth that has no row is left out.
+    pub(crate) fn of(answers: impl Iterator<Item = (&'static str, &'static str)>) -> Self {
         let rows: Vec<_> = EFFECTS.into_iter().chain(["none", "outside"]).collect();
-        let columns: Vec<_> = EFFECTS.into_iter().chain(rest.iter().copied()).collect();
+        let others = Status::ALL.into_iter().filter(|status| *status != Status::Named).map(Status::name);
+        let columns: Vec<_> =
+            EFFECTS.into_iter().chain(["several"]).chain(others).chain(["failed"]).collect();
         let mut counts = vec![vec![0; columns.len()]; rows.len()];
         for (truth, said) in answers {
             let row = rows.iter().position(|row| *row == truth);

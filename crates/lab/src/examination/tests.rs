@@ -12,6 +12,7 @@ use super::results::not_observable;
 use super::scores::Scores;
 use super::table::{Cell, Table};
 use super::{field, laboratory};
+use switchback_diagnose::Status;
 
 /// An answer: a status, and the effects that it points at.
 fn answered(status: &'static str, effects: &[&'static str]) -> Answered {
@@ -216,11 +217,20 @@ fn each_answer_about_a_fault_has_its_worth() {
 }
 
 #[test]
-fn other_parameters_are_an_answer_of_their_own() {
-    let table = scores(Design::Field, &[injected(answered("refit", &[]))]).confusion;
-    let at = |names: &[&str], name: &str| names.iter().position(|n| *n == name).expect(name);
-    assert_eq!(table.counts[at(&table.rows, "backlash")][at(&table.columns, "refit")], 1);
-    assert_eq!(table.counts.iter().flatten().sum::<usize>(), 1);
+fn every_answer_that_names_nothing_has_a_column_of_its_own() {
+    for status in
+        Status::ALL.map(Status::name).into_iter().filter(|status| *status != "named").chain(["failed"])
+    {
+        for (design, case) in [
+            (Design::Field, injected(answered(status, &["creep"]))),
+            (Design::Laboratory, drawn(Kind::Injected, &["backlash"], status, &["creep"])),
+        ] {
+            let table = scores(design, &[case]).confusion;
+            let at = |names: &[&str], name: &str| names.iter().position(|n| *n == name).expect(name);
+            assert_eq!(table.counts[at(&table.rows, "backlash")][at(&table.columns, status)], 1, "{status}");
+            assert_eq!(table.counts.iter().flatten().sum::<usize>(), 1);
+        }
+    }
 }
 
 #[test]

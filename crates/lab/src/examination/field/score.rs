@@ -43,13 +43,11 @@ fn confusion(asked: &[Asked<'_>]) -> Confusion {
         let said = match (one.answer.reply.status, &one.news()?[..]) {
             ("named", [effect]) => *effect,
             ("named", [_, ..]) => "several",
-            (status @ ("class" | "ambiguous"), [_, ..]) => status,
-            (status @ ("refit" | "shortlist" | "unexplained" | "failed"), _) => status,
-            _ => "none",
+            ("named" | "class" | "ambiguous", []) => "none",
+            (status, _) => status,
         };
         Some((truth, said))
     };
     let judged = asked.iter().filter(|a| a.rating().is_some());
-    let rest = ["several", "class", "ambiguous", "none", "refit", "shortlist", "unexplained", "failed"];
-    Confusion::of(judged.filter_map(|one| answer(&one)), &rest)
+    Confusion::of(judged.filter_map(|one| answer(&one)))
 }

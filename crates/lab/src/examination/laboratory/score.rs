@@ -48,6 +48,5 @@ fn confusion(cases: &[Case]) -> Confusion {
         };
         Some((truth, said))
     };
-    let rest = ["several", "class", "ambiguous", "none", "unexplained", "failed"];
-    Confusion::of(cases.iter().filter_map(answer), &rest)
+    Confusion::of(cases.iter().filter_map(answer))
 }
