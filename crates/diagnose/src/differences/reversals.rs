@@ -11,7 +11,7 @@ const MOST_MOVES: usize = 60;
 /// Fit of everything else after such a move.
 const AFTER_A_MOVE: Effort = Effort { iterations: 3, tolerance: 1e-3 };
 
-/// Before a fit to the end.
+/// The chord's part of a fit to the end.
 const BEFORE_THE_END: Effort = Effort { iterations: 12, tolerance: 1e-5 };
 
 /// [`fit`] with derivatives by knots taken at the start alone: knots are many, and the run is linear in them at any linear part. A fit to the end goes on from
